@@ -18,16 +18,16 @@ MatrixXd stiffness_of_plates(const JointModel& joint) {
   return S;
 }
 
-/// Forces on all unknowns, and prescribed displacements, by a unit of each load case, (N, l) each.
-std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vector<LoadCase>& cases) {
-  MatrixXd loads = MatrixXd::Zero(joint.n_unknowns(), std::ssize(cases)), given = loads;
-  for (Index i = 0; i < std::ssize(cases); ++i) {
-    const PlateModel& plate = joint.plates[cases[i].plate];
-    const Index first = joint.offset(cases[i].plate), external = plate.n_disc_unknowns() + cases[i].at;
+/// Forces on all unknowns, and prescribed displacements, by a unit of each load column, (N, l) each.
+std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vector<LoadColumn>& columns) {
+  MatrixXd loads = MatrixXd::Zero(joint.n_unknowns(), std::ssize(columns)), given = loads;
+  for (Index i = 0; i < std::ssize(columns); ++i) {
+    const PlateModel& plate = joint.plates[columns[i].plate];
+    const Index first = joint.offset(columns[i].plate), external = plate.n_disc_unknowns() + columns[i].at;
     auto load = loads.col(i).segment(first, plate.n_unknowns());
-    if (cases[i].is_traction) {
-      load = -plate.T.col(cases[i].at);
-    } else if (cases[i].is_displacement) {
+    if (columns[i].is_traction) {
+      load = -plate.T.col(columns[i].at);
+    } else if (columns[i].is_displacement) {
       load = -plate.S.col(external);
       given(first + external, i) = 1;
     } else {
@@ -122,8 +122,8 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.S_ud.noalias() -= half.transpose() * half;
   system.n_moments = joint.n_moments();
   system.held = held;
-  system.cases = load_cases(joint, held);
-  const auto [loads, given] = unit_loads(joint, system.cases);
+  system.load_columns = load_columns(joint, held);
+  const auto [loads, given] = unit_loads(joint, system.load_columns);
   system.Q = system.D_delta.transpose() * loads;
   system.Q_scale.resize(loads.cols());
   for (Index i = 0; i < loads.cols(); ++i) {

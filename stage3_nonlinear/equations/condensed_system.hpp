@@ -21,15 +21,15 @@ namespace fastjoint::stage3 {
 /// S_ud is the parallel sum of the plates' matrices, and exists also if a plate floats.
 struct CondensedSystem {
   MatrixXd S_ud;                                ///< (r, r) force / length
-  MatrixXd Q;                                   ///< (r, l) forces of rigid fasteners per unit of each load case
+  MatrixXd Q;                                   ///< (r, l) forces of rigid fasteners per unit of each load column
   Index n_moments = 0;                          ///< r - n a
-  VectorXd Q_scale = VectorXd::Ones(Q.cols());  ///< (l) largest force of each load case, for rounding
+  VectorXd Q_scale = VectorXd::Ones(Q.cols());  ///< (l) largest force of each load column, for rounding
   MatrixXd H = MatrixXd(S_ud.rows(), 0);        ///< (r, t) forces by friction, per unit of each amplitude
-  std::vector<LoadCase> cases = {};             ///< (l)
+  std::vector<LoadColumn> load_columns = {};    ///< (l)
   Held held = {};
   FrictionLayout friction = {};  ///< (t)
   // Displacements of the joint's N unknowns, given ones included.
-  MatrixXd D_load = {};   ///< (N, l) per unit of each load case at delta = 0
+  MatrixXd D_load = {};   ///< (N, l) per unit of each load column at delta = 0
   MatrixXd D_delta = {};  ///< (N, r) per relative displacement, dimensionless
   RigidJoint rigid = {};
   /// Reference stiffness k of each plane, then of each rim of contact, force / length: slightly above the sum of the

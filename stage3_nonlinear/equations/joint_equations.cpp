@@ -81,19 +81,19 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
   }
 }
 
-/// Forces of rigid fasteners by the loads of the load cases, (r).
-VectorXd rigid_forces_by(const CondensedSystem& system, const VectorXd& cases) {
-  return without_rounding(system.Q * cases, cases.cwiseAbs().cwiseProduct(system.Q_scale).lpNorm<Eigen::Infinity>());
+/// Forces of rigid fasteners by the loads of the load columns, (r).
+VectorXd rigid_forces_by(const CondensedSystem& system, const VectorXd& loads) {
+  return without_rounding(system.Q * loads, loads.cwiseAbs().cwiseProduct(system.Q_scale).lpNorm<Eigen::Infinity>());
 }
 
-/// Values of the load cases, (l), from a value of each load; zero for cases that are not active at a load factor.
-VectorXd of_active_cases(const JointEquations& equations, double load_factor, const VectorXd& values) {
-  const auto& cases = equations.system->cases;
+/// Values of the load columns, (l), from a value of each load; zero for columns that are not active at a load factor.
+VectorXd of_active_columns(const JointEquations& equations, double load_factor, const VectorXd& values) {
+  const auto& columns = equations.system->load_columns;
   const VectorXd load = equations.parameters.load_at(load_factor);
-  return VectorXd::NullaryExpr(std::ssize(cases), [&](Index i) {
-    const Index at = cases[i].load;
+  return VectorXd::NullaryExpr(std::ssize(columns), [&](Index i) {
+    const Index at = columns[i].load;
     const double rate = equations.parameters.load[at];  // a load of zero counts as one that grows with the load factor
-    return is_active(cases[i].sign, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
+    return is_active(columns[i].sign, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
   });
 }
 
@@ -196,15 +196,15 @@ std::vector<PlaneMemory> JointEquations::memories() const {
 }
 
 VectorXd JointEquations::load_at(double load_factor) const {
-  return of_active_cases(*this, load_factor, parameters.load_at(load_factor));
+  return of_active_columns(*this, load_factor, parameters.load_at(load_factor));
 }
 
 VectorXd JointEquations::load_rates(double load_factor) const {
-  return of_active_cases(*this, load_factor, parameters.load);
+  return of_active_columns(*this, load_factor, parameters.load);
 }
 
-VectorXd JointEquations::active_cases(double load_factor) const {
-  return of_active_cases(*this, load_factor, VectorXd::Ones(parameters.load.size()));
+VectorXd JointEquations::active_columns(double load_factor) const {
+  return of_active_columns(*this, load_factor, VectorXd::Ones(parameters.load.size()));
 }
 
 VectorXd JointEquations::q_at(double load_factor) const {

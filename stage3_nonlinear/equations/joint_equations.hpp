@@ -75,11 +75,11 @@ struct JointEquations {
   [[nodiscard]] VectorXd deforming(const VectorXd& delta) const;
   /// Forces of rigid fasteners at a load factor, (r), force.
   [[nodiscard]] VectorXd rigid_forces(double load_factor) const;
-  /// Loads of the load cases at a load factor, and their derivatives by it, (l).
+  /// Loads of the load columns at a load factor, and their derivatives by it, (l).
   [[nodiscard]] VectorXd load_at(double load_factor) const;
   [[nodiscard]] VectorXd load_rates(double load_factor) const;
-  /// 1 for load cases that are active at a load factor, else 0, (l).
-  [[nodiscard]] VectorXd active_cases(double load_factor) const;
+  /// 1 for load columns that are active at a load factor, else 0, (l).
+  [[nodiscard]] VectorXd active_columns(double load_factor) const;
   /// F + S_ud delta and, with friction, H Lambda, (r), force.
   [[nodiscard]] VectorXd required(const ContactState& state, bool friction) const;
   /// F + S_ud delta + H Lambda minus the forces of rigid fasteners, (r), force.

@@ -24,19 +24,19 @@ std::vector<Load> loads_of(const JointModel& joint) {
   return loads;
 }
 
-std::vector<LoadCase> load_cases(const JointModel& joint, const Held& held) {
-  std::vector<LoadCase> cases;
+std::vector<LoadColumn> load_columns(const JointModel& joint, const Held& held) {
+  std::vector<LoadColumn> columns;
   const auto loads = loads_of(joint);
   for (Index load = 0; load < std::ssize(loads); ++load) {
     const auto& [at_plate, first, is_traction] = loads[load];
     const PlateModel& plate = joint.plates[at_plate];
     Index at = first;
     do {
-      cases.push_back(
+      columns.push_back(
           {load, at_plate, at, is_traction, held.displaced[load], is_traction ? plate.bearing_sign(at) : 0});
     } while (is_traction && plate.is_other_side(++at));
   }
-  return cases;
+  return columns;
 }
 
 namespace {

@@ -27,16 +27,16 @@ struct Held {
 };
 
 /// A column of the condensed system: a load, or the part of a load on a hole that acts on one side of the hole.
-struct LoadCase {
+struct LoadColumn {
   Index load;  ///< among loads_of
   Index plate;
   Index at;  ///< external, or traction
   bool is_traction, is_displacement;
   int sign = 0;  ///< 1 or -1: active while the load has this sign; 0: always active
 };
-[[nodiscard]] std::vector<LoadCase> load_cases(const JointModel& joint, const Held& held);
+[[nodiscard]] std::vector<LoadColumn> load_columns(const JointModel& joint, const Held& held);
 
-/// Tells whether a load case with a sign is active under a load; a load of zero has the sign of its rate.
+/// Tells whether a load column with a sign is active under a load; a load of zero has the sign of its rate.
 [[nodiscard]] inline bool is_active(int sign, double load, double rate = 0) {
   return sign != (load < 0 || (load == 0 && rate < 0) ? 1 : -1);
 }

@@ -124,7 +124,7 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, co
 std::vector<std::vector<bool>> held_externals(const JointModel& joint, const CondensedSystem& system) {
   std::vector<std::vector<bool>> held;
   for (const auto& plate : joint.plates) held.emplace_back(plate.n_externals(), false);
-  for (const auto& its : system.cases)
+  for (const auto& its : system.load_columns)
     if (its.is_displacement) held[its.plate][its.at] = true;
   for (const auto& group : system.held.ties)
     for (const auto& [plate, external] : group) held[plate][external] = true;
@@ -178,7 +178,7 @@ std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSyst
     plates[i].traction = VectorXd::Zero(plate.n_tractions());
   }
   for (Index i = 0; i < load.size(); ++i) {
-    const LoadCase& its = system.cases[i];
+    const LoadColumn& its = system.load_columns[i];
     if (its.is_displacement) continue;
     (its.is_traction ? plates[its.plate].traction : plates[its.plate].Pe)[its.at] = load[i];
   }

@@ -54,7 +54,7 @@ struct JointState {
 /// @param contacts One for each rim of contact.
 void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state);
 
-/// Displacements of all unknowns, (N, columns), length, from the loads of the load cases, (l, columns), relative
+/// Displacements of all unknowns, (N, columns), length, from the loads of the load columns, (l, columns), relative
 /// displacements of planes and moments, (r, columns), and amplitudes of friction, (t, columns).
 [[nodiscard]] MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, const MatrixXd& load,
                                      const MatrixXd& delta, const MatrixXd& Lambda);

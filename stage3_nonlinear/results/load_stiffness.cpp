@@ -10,7 +10,8 @@ namespace {
 VectorXd traction_rates(const CondensedSystem& system, const VectorXd& rates, Index plate, Index n) {
   VectorXd result = VectorXd::Zero(n);
   for (Index i = 0; i < rates.size(); ++i)
-    if (system.cases[i].plate == plate && system.cases[i].is_traction) result[system.cases[i].at] = rates[i];
+    if (const LoadColumn& its = system.load_columns[i]; its.plate == plate && its.is_traction)
+      result[its.at] = rates[i];
   return result;
 }
 
@@ -28,8 +29,8 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Solv
   const VectorXd D = displacements(joint, system, rates, delta, Lambda);
   const VectorXd friction = friction_loads(joint, system.friction.columns, Lambda);
   std::vector<LoadStiffness> result;
-  for (Index i = 0; i < std::ssize(system.cases); ++i) {
-    const auto& [load, at_plate, at, is_traction, is_displacement, sign] = system.cases[i];
+  for (Index i = 0; i < std::ssize(system.load_columns); ++i) {
+    const auto& [load, at_plate, at, is_traction, is_displacement, sign] = system.load_columns[i];
     if (rates[i] == 0) continue;
     const PlateModel& plate = joint.plates[at_plate];
     const Index first = joint.offset(at_plate), row = plate.n_disc_unknowns() + at;

@@ -4,15 +4,15 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Derivatives of the load cases by all parameters, (l, columns).
+/// Derivatives of the load columns by all parameters, (l, columns).
 MatrixXd load_changes(const JointNumbers& numbers, const SolvedPoint& point) {
   const JointEquations& equations = point.equations();
-  const auto& cases = equations.system->cases;
-  MatrixXd changes = MatrixXd::Zero(std::ssize(cases), numbers.n_derivatives());
+  const auto& columns = equations.system->load_columns;
+  MatrixXd changes = MatrixXd::Zero(std::ssize(columns), numbers.n_derivatives());
   changes.col(0) = equations.load_rates(point.load_factor());
-  const VectorXd acting = equations.active_cases(point.load_factor());
-  for (Index i = 0; i < std::ssize(cases); ++i)
-    changes(i, numbers.of_load[cases[i].load]) = point.load_factor() * acting[i];
+  const VectorXd acting = equations.active_columns(point.load_factor());
+  for (Index i = 0; i < std::ssize(columns); ++i)
+    changes(i, numbers.of_load[columns[i].load]) = point.load_factor() * acting[i];
   return changes;
 }
 

@@ -13,7 +13,7 @@ namespace fastjoint::stage3 {
 struct StateSlopes {
   MatrixXd F, delta;                ///< (r, columns) of all rows of the condensed system
   MatrixXd Lambda;                  ///< (t, columns) of the amplitudes of friction
-  MatrixXd load;                    ///< (l, columns) of the loads of the load cases
+  MatrixXd load;                    ///< (l, columns) of the loads of the load columns
   std::vector<Index> none, no_row;  ///< columns without a derivative, and rows of F
 };
 [[nodiscard]] StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point);

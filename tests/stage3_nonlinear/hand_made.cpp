@@ -224,7 +224,7 @@ std::vector<stage3::PlacedInterface> interfaces_of(const std::vector<stage3::Con
 stage3::JointEquations equations_of(const MatrixXd& S_ud, const Eigen::VectorXd& q,
                                     std::vector<stage3::Contact> contacts) {
   auto system = std::make_shared<stage3::CondensedSystem>(stage3::CondensedSystem{.S_ud = S_ud, .Q = q});
-  system->cases = {{0, 0, 0, false, false}};
+  system->load_columns = {{0, 0, 0, false, false}};
   Eigen::VectorXd own(std::ssize(contacts));
   for (Index j = 0; j < own.size(); ++j) own[j] = contacts[j].stiffness;
   set_reference(*system, own);

@@ -58,7 +58,7 @@ TEST_F(ContactJoint, TakeOtherGapsAndFrictionWhileTheCondensedJointStays) {
   }
 }
 
-TEST(LoadCases, OfAHoleActOnTheSideThatTheForcePointsTo) {
+TEST(LoadColumns, OfAHoleActOnTheSideThatTheForcePointsTo) {
   for (const int sense : {1, -1}) {
     EXPECT_EQ(is_active(sense, 5), sense == 1);
     EXPECT_EQ(is_active(sense, -5), sense == -1);
