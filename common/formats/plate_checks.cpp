@@ -32,10 +32,9 @@ void check_mesh(const std::string& file, const pfem::Mesh& mesh, const pfem::Edg
   }
   if (const auto unused = std::ranges::find(used, false); unused != used.end())
     fail(file, "mesh/quads", fmt::format("no element has node {}", unused - used.begin()), "each in an element");
-  if (!edges.arc_without_edge.empty()) {
-    const auto& arc = mesh.arcs[edges.arc_without_edge.front()];
-    fail(file, "mesh/arc_nodes", fmt::format("holds {}, {}", arc.a, arc.b), "nodes that an edge joins");
-  }
+  for (const auto& arc : mesh.arcs)
+    if (edges.between(arc.a, arc.b) < 0)
+      fail(file, "mesh/arc_nodes", fmt::format("holds {}, {}", arc.a, arc.b), "nodes that an edge joins");
 }
 
 /// Rejects a rim that differs from that of the mesh around the hole.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "common/count.hpp"
@@ -33,29 +32,28 @@ Rule piecewise(int p, const std::vector<double>& breaks) {
 
 }  // namespace
 
+int Edges::between(int a, int b) const {
+  const auto found = index.find(std::minmax(a, b));
+  return found == index.end() ? -1 : found->second;
+}
+
 Edges find_edges(const Mesh& mesh) {
   Edges edges;
   edges.of_element.resize(n_local_edges, mesh.n_elements());
-  std::map<std::pair<int, int>, int> index;
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int edge = 0; edge < n_local_edges; ++edge) {
       const auto [a, b] = natural_ends(edge);
       const std::pair<int, int> ends = std::minmax(mesh.quads(a, element), mesh.quads(b, element));
-      const auto [found, is_new] = index.try_emplace(ends, count_of(index));
-      if (is_new) edges.n_elements.push_back(0);
-      ++edges.n_elements[found->second];
+      const auto [found, is_new] = edges.index.try_emplace(ends, edges.size());
+      if (is_new) edges.sides.emplace_back();
+      edges.sides[found->second].push_back({element, edge});
       edges.of_element(edge, element) = found->second;
     }
-  edges.nodes.resize(2, index.size());
-  for (const auto& [ends, edge] : index) edges.nodes.col(edge) << ends.first, ends.second;
-  edges.arc.assign(index.size(), -1);
-  for (int i = 0; i < count_of(mesh.arcs); ++i) {
-    const auto found = index.find(std::minmax(mesh.arcs[i].a, mesh.arcs[i].b));
-    if (found == index.end())
-      edges.arc_without_edge.push_back(i);
-    else
-      edges.arc[found->second] = i;
-  }
+  edges.nodes.resize(2, edges.size());
+  for (const auto& [ends, edge] : edges.index) edges.nodes.col(edge) << ends.first, ends.second;
+  edges.arc.assign(edges.size(), -1);
+  for (int i = 0; i < count_of(mesh.arcs); ++i)
+    if (const int edge = edges.between(mesh.arcs[i].a, mesh.arcs[i].b); edge >= 0) edges.arc[edge] = i;
   return edges;
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace fastjoint::pfem {
@@ -24,15 +27,27 @@ struct Mesh {
   [[nodiscard]] int n_elements() const { return static_cast<int>(quads.cols()); }
 };
 
+/// One side of one element.
+struct Side {
+  int element, local_edge;
+  friend auto operator<=>(const Side&, const Side&) = default;
+};
+
 /// The edges of a mesh, each once, in the order in which the elements meet them.
 struct Edges {
-  Eigen::Matrix2Xi nodes;             ///< (2, n_edges), the lower node first, which sets the edge's global direction
-  Eigen::Matrix4Xi of_element;        ///< (4, n_elements), by local edge
-  std::vector<int> arc;               ///< (n_edges) index into Mesh::arcs, or -1
-  std::vector<int> n_elements;        ///< (n_edges) number of elements that share it
-  std::vector<int> arc_without_edge;  ///< arcs whose nodes no edge joins
+  Eigen::Matrix2Xi nodes;                ///< (2, n_edges), the lower node first, which sets the edge's global direction
+  Eigen::Matrix4Xi of_element;           ///< (4, n_elements), by local edge
+  std::vector<std::vector<Side>> sides;  ///< (n_edges) the elements that share it, in their order
+  std::vector<int> arc;                  ///< (n_edges) index into Mesh::arcs, or -1
+  std::map<std::pair<int, int>, int> index;  ///< of the edge between a lower and a higher node
 
-  [[nodiscard]] int size() const { return static_cast<int>(nodes.cols()); }
+  [[nodiscard]] int size() const { return static_cast<int>(sides.size()); }
+  /// The edge of a side.
+  [[nodiscard]] int of(const Side& side) const { return of_element(side.local_edge, side.element); }
+  /// The edge between two nodes; -1 if there is none.
+  [[nodiscard]] int between(int a, int b) const;
+  /// True if one element alone has the edge.
+  [[nodiscard]] bool is_border(int edge) const { return sides[edge].size() == 1; }
 };
 
 [[nodiscard]] Edges find_edges(const Mesh& mesh);
@@ -61,12 +76,6 @@ class Curve {
 
 /// Curve of a local edge in its natural direction.
 [[nodiscard]] Curve edge_curve(const Mesh& mesh, const Edges& edges, int element, int local_edge);
-
-/// One side of one element.
-struct Side {
-  int element, local_edge;
-  friend bool operator==(const Side&, const Side&) = default;
-};
 
 /// Quadrature along one side of an element, with the traces of the shape functions that do not vanish there.
 struct SideRule {

@@ -9,15 +9,6 @@
 namespace fastjoint::plate {
 namespace {
 
-/// The elements on both sides of every edge of a mesh.
-std::vector<std::vector<pfem::Side>> sides_of_edges(const pfem::Edges& edges) {
-  std::vector<std::vector<pfem::Side>> sides(edges.size());
-  for (int element = 0; element < edges.of_element.cols(); ++element)
-    for (int local = 0; local < pfem::n_local_edges; ++local)
-      sides[edges.of_element(local, element)].push_back({element, local});
-  return sides;
-}
-
 /// Integral of a component of the stress, xx, yy or xy, times t ds over one side of an element as a function of the
 /// element's coefficients.
 Eigen::VectorXd side_force(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Numbering& numbering,
@@ -41,12 +32,11 @@ Eigen::VectorXd side_force(const pfem::Mesh& mesh, const pfem::Edges& edges, con
 PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mesh& mesh, const pfem::Edges& edges,
                                       const pfem::Numbering& numbering, const std::vector<Eigen::Matrix3d>& elasticity,
                                       const std::vector<rim::Section>& sections) {
-  const auto both = sides_of_edges(edges);
   PlateFactor::Functions forces;
   const auto add = [&](const rim::Section& section, Eigen::Index component) {
     forces.emplace_back();
     for (const auto& side : section.sides) {
-      const auto& sides = both[edges.of_element(side.local_edge, side.element)];
+      const auto& sides = edges.sides[edges.of(side)];
       for (const auto& one : sides) {
         const Eigen::VectorXd force =
             side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one, component);

@@ -18,14 +18,12 @@ bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector
 }  // namespace
 
 RimFinder::RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges) : mesh_(mesh) {
-  for (int element = 0; element < mesh.n_elements(); ++element)
-    for (int edge = 0; edge < pfem::n_local_edges; ++edge) {
-      const int global = edges.of_element(edge, element);
-      const int arc = edges.arc[global];
-      if (arc < 0 || edges.n_elements[global] != 1) continue;
-      const Eigen::Vector2d& center = mesh.arcs[arc].center;
-      arcs_[center.x()][center.y()].push_back({{element, edge}, arc});
-    }
+  for (int edge = 0; edge < edges.size(); ++edge) {
+    const int arc = edges.arc[edge];
+    if (arc < 0 || !edges.is_border(edge)) continue;
+    const Eigen::Vector2d& center = mesh.arcs[arc].center;
+    arcs_[center.x()][center.y()].emplace_back(edges.sides[edge].front(), arc);
+  }
 }
 
 Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius, double tolerance) const {
@@ -35,7 +33,7 @@ Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius, double t
     for (auto y = x->second.lower_bound(low.y()); y != x->second.end() && y->first <= high.y(); ++y)
       for (const auto& [side, arc] : y->second)
         if (on_circle(mesh_, mesh_.arcs[arc], center, radius, tolerance)) rim.sides.push_back(side);
-  std::ranges::sort(rim.sides, {}, [](const pfem::Side& side) { return std::pair(side.element, side.local_edge); });
+  std::ranges::sort(rim.sides);
   return rim;
 }
 

@@ -16,10 +16,6 @@
 namespace fastjoint::stage1 {
 namespace {
 
-using NodePair = std::pair<int, int>;
-
-NodePair sorted(int a, int b) { return std::minmax(a, b); }
-
 /// A path in order, from one end to the other.
 struct CrackLine {
   std::vector<int> nodes;
@@ -54,20 +50,12 @@ std::vector<int> in_order(const PlateScene& scene, const CrackPath& path) {
 
 CrackLine line_of(const PlateScene& scene, const PlateMesh& plate, const CrackPath& path) {
   CrackLine line{in_order(scene, path), true, true};
-  std::map<NodePair, int> n_elements;
   std::set<int> on_border;
-  for (int edge = 0; edge < plate.edges.size(); ++edge) {
-    const int a = plate.edges.nodes(0, edge), b = plate.edges.nodes(1, edge);
-    n_elements[{a, b}] = plate.edges.n_elements[edge];
-    if (plate.edges.n_elements[edge] == 1) on_border.insert({a, b});
-  }
+  for (int edge = 0; edge < plate.edges.size(); ++edge)
+    if (plate.edges.is_border(edge)) on_border.insert({plate.edges.nodes(0, edge), plate.edges.nodes(1, edge)});
   for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
     const int a = line.nodes[i], b = line.nodes[i + 1];
-    const auto found = n_elements.find(sorted(a, b));
-    if (found == n_elements.end())
-      reject(scene, path.pointer, fmt::format("nodes {} and {} are not joined by an edge of an element", a, b),
-             "edges of elements");
-    if (found->second == 1)
+    if (plate.edges.is_border(edge_between(scene, plate.edges, path.pointer, a, b)))
       reject(scene, path.pointer, fmt::format("the edge between nodes {} and {} is on the border already", a, b),
              "edges inside the sheet");
     if (i > 0 && on_border.contains(a))
@@ -135,10 +123,7 @@ void double_nodes(const CrackLine& line, pfem::Mesh& mesh) {
   const Eigen::Index n = mesh.nodes.cols();
   mesh.nodes.conservativeResize(2, n + std::ssize(added));
   for (Eigen::Index k = 0; k < std::ssize(added); ++k) mesh.nodes.col(n + k) = added[k];
-  std::set<NodePair> edges;
-  for (int element = 0; element < mesh.n_elements(); ++element)
-    for (int edge = 0; edge < 4; ++edge)
-      edges.insert(sorted(mesh.quads(edge, element), mesh.quads((edge + 1) % 4, element)));
+  const pfem::Edges edges = pfem::find_edges(mesh);
   const auto both = [&](int node) {
     const auto found = twin.find(node);
     return found == twin.end() ? std::vector{node} : std::vector{node, found->second};
@@ -147,7 +132,7 @@ void double_nodes(const CrackLine& line, pfem::Mesh& mesh) {
   for (const auto& arc : mesh.arcs)
     for (const int a : both(arc.a))
       for (const int b : both(arc.b))
-        if (edges.contains(sorted(a, b))) arcs.push_back({a, b, arc.center});
+        if (edges.between(a, b) >= 0) arcs.push_back({a, b, arc.center});
   mesh.arcs = std::move(arcs);
 }
 
@@ -193,8 +178,7 @@ class Grader {
     std::erase_if(mesh.arcs, [&](const pfem::Arc& arc) { return tips_.contains(arc.a) || tips_.contains(arc.b); });
     const auto follow = [&](std::vector<pfem::Side>& sides) {
       for (auto& side : sides)
-        if (const auto found = moved_.find({side.element, side.local_edge}); found != moved_.end())
-          side = found->second;
+        if (const auto found = moved_.find(side); found != moved_.end()) side = found->second;
     };
     for (auto& [name, sides] : plate_.sets) follow(sides);
     for (auto& section : plate_.sections) follow(section.sides);
@@ -250,7 +234,7 @@ class Grader {
   std::vector<int> material_;
   std::map<std::pair<int, int>, int> scaled_;
   std::set<int> tips_;
-  std::map<std::pair<int, int>, pfem::Side> moved_;  ///< keys: element and local edge
+  std::map<pfem::Side, pfem::Side> moved_;  ///< keys: where they were
 };
 
 /// Checks the sheet around a tip, where the dual fields hold for one isotropic material.
@@ -310,9 +294,11 @@ std::vector<OpenTip> tips_of(const PlateScene& scene, const pfem::Mesh& mesh, co
   return tips;
 }
 
-}  // namespace
-
+/// Number of layers around a tip: enough that the innermost one adds no more to a stress intensity factor than the
+/// elements of degree p leave (docs/theory.md, section 11.7).
 int layers_for(int p) { return std::max(2, p - 1); }
+
+}  // namespace
 
 void open_cracks(const PlateScene& scene, const std::vector<CrackPath>& paths, PlateMesh& plate) {
   if (paths.empty()) return;

@@ -16,10 +16,6 @@ struct CrackPath {
   std::vector<std::pair<int, int>> edges;  ///< nodes of each edge, in any order
 };
 
-/// Number of layers around a tip: enough that the innermost one adds no more to a stress intensity factor than the
-/// elements of degree p leave (docs/theory.md, section 11.7).
-[[nodiscard]] int layers_for(int p);
-
 /// Opens cracks: doubles the nodes along each path but its tips, and cuts the elements around a tip into layers whose
 /// sizes fall by 0.2 from one to the next. Sides of sets and sections follow. Adds the tips to the plate.
 /// Throws InputError if a path is not one connected line without branches, if one of its edges lies on the border, or

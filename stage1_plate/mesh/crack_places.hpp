@@ -18,14 +18,9 @@ struct TipPlace {
   double size;  ///< of the elements around it: the distance to the nearest hole, border or crack, or the crack's length
 };
 
-/// A crack in a grid.
-struct CrackPlace {
-  Eigen::Vector2d from, to;
-  std::vector<TipPlace> tips;  ///< 0 to 2
-};
-
-/// Throws InputError for a crack that leaves the plate, and for a tip in a hole or too near to what is around it.
-[[nodiscard]] std::vector<CrackPlace> place_cracks(const PlateScene& scene, const GridGeometry& grid);
+/// The tips of each crack, 0 to 2. Throws InputError for a crack that leaves the plate or meets another, and for a tip
+/// in a hole or too near to what is around it.
+[[nodiscard]] std::vector<std::vector<TipPlace>> place_tips(const PlateScene& scene, const GridGeometry& grid);
 
 /// A grid whose lines have been moved, and what has been done, "x = 86 to 86.5, through a tip".
 struct MovedGrid {
@@ -40,6 +35,10 @@ struct MovedGrid {
 /// Throws InputError where a line cannot move: it is the border, the thickness or the material changes there, a hole is
 /// in its way, or it is near two tips.
 [[nodiscard]] MovedGrid lines_through_tips(const PlateScene& scene, const GridGeometry& grid,
-                                           const std::vector<CrackPlace>& cracks);
+                                           const std::vector<std::vector<TipPlace>>& tips);
+
+/// Throws InputError for the place of a crack in the file.
+[[noreturn]] void reject_crack(const PlateScene& scene, int crack, const std::string& found,
+                               const std::string& allowed);
 
 }  // namespace fastjoint::stage1

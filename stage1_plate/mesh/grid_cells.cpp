@@ -71,11 +71,6 @@ std::vector<double> needed_nodes(double distance, double center, double from, do
   return nodes;
 }
 
-/// A cell of a strip: the nodes that its hole needs, empty without a hole.
-struct StripCell {
-  std::optional<NeededNodes> needed;
-};
-
 /// Nodes closer than this, in radii of the smaller hole, are merged, since thin sectors add unknowns without benefit.
 constexpr double shared_node_distance = 0.5;
 
@@ -112,15 +107,16 @@ std::vector<double> all_of(const std::vector<std::vector<double>>& fixed, int fi
 }
 
 /// Nodes on the sides between the cells of a strip: the same on all sides of a run of cells without a hole.
-std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip,
+/// @param strip What the hole of each cell needs, empty without a hole.
+std::vector<std::vector<double>> strip_nodes(const std::vector<std::optional<NeededNodes>>& strip,
                                              const std::vector<std::vector<double>>& fixed) {
   const int n = count_of(strip);
   std::vector<std::vector<double>> nodes(n + 1);
   for (int begin = 0; begin <= n;) {
     int end = begin;  // last side of the run that begins at this side
-    while (end < n && !strip[end].needed) ++end;
-    const auto before = begin > 0 ? strip[begin - 1].needed : std::nullopt;
-    const auto after = end < n ? strip[end].needed : std::nullopt;
+    while (end < n && !strip[end]) ++end;
+    const auto before = begin > 0 ? strip[begin - 1] : std::nullopt;
+    const auto after = end < n ? strip[end] : std::nullopt;
     const auto of_cracks = all_of(fixed, begin, end);
     auto all = merged(before, after, of_cracks);
     all.insert(all.end(), of_cracks.begin(), of_cracks.end());
@@ -133,53 +129,55 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
 
 }  // namespace
 
+Cell cell_at(const GridGeometry& grid, int column, int row) {
+  return {{column, row}, {grid.x[column], grid.y[row]}, {grid.x[column + 1], grid.y[row + 1]}};
+}
+
 std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid) {
   std::vector<HoleCell> cells;
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const Interval x = locate(scene, i, grid.x, rim::Axis::x);
     const Interval y = locate(scene, i, grid.y, rim::Axis::y);
+    const Cell cell = cell_at(grid, x.index, y.index);
     for (const auto& other : cells)
-      if (other.column == x.index && other.row == y.index)
+      if (other.index == cell.index)
         reject(scene, fmt::format("/holes/{}", i),
                fmt::format("holes \"{}\" and \"{}\" are in one cell", scene.holes[other.hole].id, scene.holes[i].id),
                "one hole in a cell; draw a cell line between them");
-    cells.push_back({i,
-                     x.index,
-                     y.index,
-                     {x.center, y.center},
-                     {y.at_low_border, x.at_high_border, y.at_high_border, x.at_low_border}});
+    cells.push_back(
+        {cell, i, {x.center, y.center}, {y.at_low_border, x.at_high_border, y.at_high_border, x.at_low_border}});
   }
   return cells;
 }
 
-FixedNodes::FixedNodes(const GridGeometry& grid)
-    : horizontal_(grid.x.size() - 1, std::vector<std::vector<double>>(grid.y.size())),
-      vertical_(grid.y.size() - 1, std::vector<std::vector<double>>(grid.x.size())) {}
+SideNodes::SideNodes(const GridGeometry& grid)
+    : on{std::vector(grid.y.size() - 1, std::vector<std::vector<double>>(grid.x.size())),
+         std::vector(grid.x.size() - 1, std::vector<std::vector<double>>(grid.y.size()))} {}
 
-CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
-                     const FixedNodes& fixed) {
-  const int n_columns = count_of(grid.x) - 1;
-  const int n_rows = count_of(grid.y) - 1;
-  std::vector<std::vector<StripCell>> columns(n_columns, std::vector<StripCell>(n_rows));
-  std::vector<std::vector<StripCell>> rows(n_rows, std::vector<StripCell>(n_columns));
-  for (const auto& cell : holes) {
-    const double radius = scene.holes[cell.hole].radius;
-    const double x = cell.center.x(), y = cell.center.y();
-    const double west = grid.x[cell.column], east = grid.x[cell.column + 1], south = grid.y[cell.row],
-                 north = grid.y[cell.row + 1];
-    const bool on_x = !cell.cuts[left] && !cell.cuts[right], on_y = !cell.cuts[bottom] && !cell.cuts[top];
-    columns[cell.column][cell.row].needed =
-        NeededNodes{needed_nodes(y - south, x, west, east, on_x), needed_nodes(north - y, x, west, east, on_x), radius};
-    rows[cell.row][cell.column].needed = NeededNodes{needed_nodes(x - west, y, south, north, on_y),
-                                                     needed_nodes(east - x, y, south, north, on_y), radius};
-  }
-  for (int i = 0; i < n_columns; ++i) horizontal_.push_back(strip_nodes(columns[i], fixed.horizontal()[i]));
-  for (int i = 0; i < n_rows; ++i) vertical_.push_back(strip_nodes(rows[i], fixed.vertical()[i]));
+const std::vector<double>& SideNodes::of(const Cell& cell, CellSide side) const {
+  const int axis = side == left || side == right ? 0 : 1, line = side == right || side == top ? 1 : 0;
+  return on[axis][cell.index[1 - axis]][cell.index[axis] + line];
 }
 
-const std::vector<double>& CellLines::nodes(int column, int row, CellSide side) const {
-  const int line = side == right || side == top ? 1 : 0;
-  return side == bottom || side == top ? horizontal_[column][row + line] : vertical_[row][column + line];
+SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
+                      const SideNodes& fixed) {
+  SideNodes nodes;
+  for (const int axis : {0, 1}) {  // sides across it; its strips run along it
+    const int n_strips = count_of(fixed.on[axis]), along = 1 - axis;
+    std::vector strips(n_strips, std::vector<std::optional<NeededNodes>>(grid.lines(axis).size() - 1));
+    for (const auto& cell : holes) {
+      const auto& cuts = cell.cuts;
+      const bool with_center = axis == 0 ? !cuts[bottom] && !cuts[top] : !cuts[left] && !cuts[right];
+      const auto needed = [&](double distance) {
+        return needed_nodes(distance, cell.center[along], cell.low[along], cell.high[along], with_center);
+      };
+      strips[cell.index[along]][cell.index[axis]] =
+          NeededNodes{needed(cell.center[axis] - cell.low[axis]), needed(cell.high[axis] - cell.center[axis]),
+                      scene.holes[cell.hole].radius};
+    }
+    for (int i = 0; i < n_strips; ++i) nodes.on[axis].push_back(strip_nodes(strips[i], fixed.on[axis][i]));
+  }
+  return nodes;
 }
 
 }  // namespace fastjoint::stage1

@@ -13,10 +13,16 @@ namespace fastjoint::stage1 {
 enum CellSide { bottom, right, top, left };
 inline constexpr int n_cell_sides = 4;
 
-/// A hole in its cell of the grid.
-struct HoleCell {
+/// A cell of the grid.
+struct Cell {
+  std::array<int, 2> index;   ///< column and row
+  Eigen::Vector2d low, high;  ///< corners bottom left and top right
+};
+[[nodiscard]] Cell cell_at(const GridGeometry& grid, int column, int row);
+
+/// A hole in its cell.
+struct HoleCell : Cell {
   int hole;                             ///< index into PlateScene::holes
-  int column, row;                      ///< indices of the cell
   Eigen::Vector2d center;               ///< exactly on the plate's edge if the edge cuts the hole
   std::array<bool, n_cell_sides> cuts;  ///< sides that run through the centre (lines of symmetry)
 };
@@ -25,25 +31,15 @@ struct HoleCell {
 /// cell.
 [[nodiscard]] std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid);
 
-/// Nodes that cracks need on the sides of cells.
-class FixedNodes {
- public:
-  FixedNodes() = default;
-  explicit FixedNodes(const GridGeometry& grid);
+/// Nodes between the ends of cell sides: coordinates along each side, x on bottom and top, else y.
+struct SideNodes {
+  /// [0][row][line of x] on left and right sides, [1][column][line of y] on bottom and top
+  std::array<std::vector<std::vector<std::vector<double>>>, 2> on;
 
-  /// Adds a node to a side.
-  /// @param axis  0 for left and right sides, whose strip is a row; 1 for bottom and top, whose strip is a column.
-  /// @param line  Index of the cell line that the side is on. @param at Coordinate along the side, length.
-  void add(int axis, int strip, int line, double at) {
-    (axis == 0 ? vertical_ : horizontal_)[strip][line].push_back(at);
-  }
-  /// [column][line] and [row][line] lists of coordinates, in no order.
-  using Sides = std::vector<std::vector<std::vector<double>>>;
-  [[nodiscard]] const Sides& horizontal() const { return horizontal_; }
-  [[nodiscard]] const Sides& vertical() const { return vertical_; }
-
- private:
-  Sides horizontal_, vertical_;
+  SideNodes() = default;
+  /// No nodes on any side of the grid.
+  explicit SideNodes(const GridGeometry& grid);
+  [[nodiscard]] const std::vector<double>& of(const Cell& cell, CellSide side) const;
 };
 
 /// Nodes between the ends of every cell side, the same for both neighbouring cells.
@@ -52,19 +48,8 @@ class FixedNodes {
 /// sectors in every quarter, and another where such a sector is wider than 60 degrees, as next to a near edge: wide
 /// sectors resolve few waves. Any other node on its outline adds a ray to the fan. A cell without a hole is cut by
 /// straight lines, so a node continues to the opposite side, and so on up to the next hole or the plate's edge.
-/// Nodes that cracks need take the place of those of holes close to them.
-class CellLines {
- public:
-  CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
-            const FixedNodes& fixed);
-
-  /// Coordinates strictly between the ends of a side of cell (column, row), ascending: x on bottom and top, else y.
-  [[nodiscard]] const std::vector<double>& nodes(int column, int row, CellSide side) const;
-
- private:
-  using Nodes = std::vector<double>;
-  std::vector<std::vector<Nodes>> horizontal_;  ///< [column][line], line = 0 .. number of rows
-  std::vector<std::vector<Nodes>> vertical_;    ///< [row][line]
-};
+/// Nodes that cracks need, `fixed`, take the place of those of holes close to them. The nodes of a side are ascending.
+[[nodiscard]] SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid,
+                                    const std::vector<HoleCell>& holes, const SideNodes& fixed);
 
 }  // namespace fastjoint::stage1

@@ -21,88 +21,88 @@ constexpr double growth = 3.5;
 
 class Planner {
  public:
-  Planner(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
-          const std::vector<CrackPlace>& places)
-      : scene_(scene), grid_(grid), holes_(holes), places_(places) {
-    size_ = std::hypot(grid.x.back() - grid.x.front(), grid.y.back() - grid.y.front());
+  Planner(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes)
+      : scene_(scene), grid_(grid), holes_(holes), margin_(same * grid.size()) {
     result_.tips.resize(holes.size());
-    result_.nodes = FixedNodes(grid);
+    result_.nodes = SideNodes(grid);
   }
 
-  GridCracks run() {
-    for (crack_ = 0; crack_ < count_of(scene_.cracks); ++crack_) plan(scene_.cracks[crack_], places_[crack_]);
+  GridCracks run(const std::vector<std::vector<TipPlace>>& tips) {
+    for (crack_ = 0; crack_ < count_of(scene_.cracks); ++crack_) plan(scene_.cracks[crack_], tips[crack_]);
     return std::move(result_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& found, const std::string& allowed) const {
-    reject(scene_, fmt::format("/cracks/{}", crack_), found, allowed);
+    reject_crack(scene_, crack_, found, allowed);
   }
 
-  void plan(const Crack& crack, const CrackPlace& place) {
-    const auto& [from, to, tips] = place;
-    result_.lines.emplace_back(from, to);
-    const Point along = (to - from).normalized();
+  void plan(const Crack& crack, const std::vector<TipPlace>& tips) {
+    const Point along = (crack.to - crack.from).normalized();
     const bool is_on_axis = along.cwiseAbs().minCoeff() < same;
     if (is_on_axis)
-      add_line(from, to, std::abs(along.y()) < std::abs(along.x()) ? 0 : 1);
+      add_line(crack.from, crack.to, std::abs(along.y()) < std::abs(along.x()) ? 0 : 1);
     else
-      check_inside_cell(crack, to);
+      check_inside_cell(crack);
     for (const TipPlace& tip : tips) add_tip(tip.at, tip.size);
     if (!is_on_axis) add_ray(*crack.hole, along);
   }
 
-  /// Index of the hole cell at (column, row), if it has a hole.
-  [[nodiscard]] std::optional<int> hole_cell(int column, int row) const {
-    for (int i = 0; i < count_of(holes_); ++i)
-      if (holes_[i].column == column && holes_[i].row == row) return i;
-    return std::nullopt;
+  /// Adds a node to a side of a cell on a cell line across an axis.
+  void add_node(int axis, int strip, int line, double at) { result_.nodes.on[axis][strip][line].push_back(at); }
+
+  /// Index of the hole cell at (column, row); the number of these if it has no hole.
+  [[nodiscard]] int hole_cell(int column, int row) const {
+    return index_of(holes_, std::array{column, row}, &HoleCell::index);
   }
 
   /// Index of the interval between lines that holds a coordinate, -1 if it is on a line.
   [[nodiscard]] int interval(const std::vector<double>& lines, double at) const {
     for (int i = 0; i + 1 < count_of(lines); ++i)
-      if (at > lines[i] + same * size_ && at < lines[i + 1] - same * size_) return i;
+      if (at > lines[i] + margin_ && at < lines[i + 1] - margin_) return i;
     return -1;
   }
 
   /// Mesh lines along a crack parallel to an axis.
   void add_line(const Point& from, const Point& to, int axis) {
-    const auto& along = axis == 0 ? grid_.x : grid_.y;
+    const auto& along = grid_.lines(axis);
     const double low = std::min(from[axis], to[axis]), high = std::max(from[axis], to[axis]), at = from[1 - axis];
-    const int strip = interval(axis == 0 ? grid_.y : grid_.x, at);
+    const int strip = interval(grid_.lines(1 - axis), at);
     if (strip < 0) return;  // along a cell line
     for (int i = 0; i + 1 < count_of(along); ++i) {
-      if (high <= along[i] + same * size_ || low >= along[i + 1] - same * size_) continue;
+      if (high <= along[i] + margin_ || low >= along[i + 1] - margin_) continue;
       const int column = axis == 0 ? i : strip, row = axis == 0 ? strip : i;
-      if (const auto cell = hole_cell(column, row)) {
-        const HoleCell& hole = holes_[*cell];
+      if (const int cell = hole_cell(column, row); cell < count_of(holes_)) {
+        const HoleCell& hole = holes_[cell];
         const Hole& of = scene_.holes[hole.hole];
         if (std::abs(hole.center[1 - axis] - at) > rim::same_place * of.radius)
           fail(fmt::format("it runs through the cell of hole \"{}\", but not towards its centre", of.id),
                "cracks towards the centre of each hole in whose cell they are; draw cell lines between the two");
-        if (low < hole.center[axis] - same * size_ && high > hole.center[axis] + same * size_)
+        if (low < hole.center[axis] - margin_ && high > hole.center[axis] + margin_)
           fail(fmt::format("it runs through hole \"{}\"", of.id), "one crack on each side of a hole");
-        if (low < along[i] - same * size_) result_.nodes.add(axis, strip, i, at);
-        if (high > along[i + 1] + same * size_) result_.nodes.add(axis, strip, i + 1, at);
+        if (low < along[i] - margin_) add_node(axis, strip, i, at);
+        if (high > along[i + 1] + margin_) add_node(axis, strip, i + 1, at);
         // A tip inside needs the whole ray, up to the side of the cell.
-        if (low > hole.center[axis]) result_.nodes.add(axis, strip, i + 1, at);
-        if (high < hole.center[axis]) result_.nodes.add(axis, strip, i, at);
+        if (low > hole.center[axis]) add_node(axis, strip, i + 1, at);
+        if (high < hole.center[axis]) add_node(axis, strip, i, at);
       } else {
-        result_.nodes.add(axis, strip, i, at);
-        result_.nodes.add(axis, strip, i + 1, at);
+        add_node(axis, strip, i, at);
+        add_node(axis, strip, i + 1, at);
       }
     }
   }
 
-  void check_inside_cell(const Crack& crack, const Point& tip) const {
+  /// True if a point is in a cell, further from its sides than a margin, or outside it by less than minus a negative
+  /// one.
+  static bool is_in(const Cell& cell, const Point& at, double margin) {
+    return ((at - cell.low).array() > margin).all() && ((cell.high - at).array() > margin).all();
+  }
+
+  void check_inside_cell(const Crack& crack) const {
     if (!crack.hole)
       fail("a crack that is neither along x nor along y and does not begin at a hole",
            "cracks along x or y, or from a hole inside its cell");
-    const auto cell = std::ranges::find(holes_, *crack.hole, &HoleCell::hole);
-    const double margin = same * size_;
-    if (!(tip.x() > grid_.x[cell->column] - margin && tip.x() < grid_.x[cell->column + 1] + margin &&
-          tip.y() > grid_.y[cell->row] - margin && tip.y() < grid_.y[cell->row + 1] + margin))
+    if (!is_in(*std::ranges::find(holes_, *crack.hole, &HoleCell::hole), crack.to, -margin_))
       fail(fmt::format("it leaves the cell of hole \"{}\"", scene_.holes[*crack.hole].id),
            "cracks that end inside the hole's cell, or along x or y");
   }
@@ -110,11 +110,8 @@ class Planner {
   void add_tip(const Point& tip, double size) {
     for (int i = 0; i < count_of(holes_); ++i) {
       const HoleCell& cell = holes_[i];
+      if (!is_in(cell, tip, margin_)) continue;
       const Point ray = tip - cell.center;
-      const bool inside = tip.x() > grid_.x[cell.column] + same * size_ &&
-                          tip.x() < grid_.x[cell.column + 1] - same * size_ &&
-                          tip.y() > grid_.y[cell.row] + same * size_ && tip.y() < grid_.y[cell.row + 1] - same * size_;
-      if (!inside) continue;
       const double angle = std::atan2(ray.y(), ray.x());
       for (const CellTip& other : result_.tips[i])
         if (std::abs(rim::wrapped(other.angle - angle)) < rim::same_angle)
@@ -138,16 +135,15 @@ class Planner {
   /// A mesh line across an axis at a coordinate, through the cells without a hole at the tip's place across.
   /// @param clear Distance from cell lines within which it is left out.
   void add_tip_line(int axis, double at, double across, double clear) {
-    const auto& lines = axis == 0 ? grid_.x : grid_.y;
-    const auto& others = axis == 0 ? grid_.y : grid_.x;
+    const auto &lines = grid_.lines(axis), &others = grid_.lines(1 - axis);
     const int strip = interval(lines, at);
     if (strip < 0 || at - lines[strip] < clear || lines[strip + 1] - at < clear) return;
     for (int i = 0; i + 1 < count_of(others); ++i) {
-      if (across < others[i] - same * size_ || across > others[i + 1] + same * size_) continue;
+      if (across < others[i] - margin_ || across > others[i + 1] + margin_) continue;
       const int column = axis == 0 ? strip : i, row = axis == 0 ? i : strip;
-      if (hole_cell(column, row)) continue;
-      result_.nodes.add(1 - axis, strip, i, at);
-      result_.nodes.add(1 - axis, strip, i + 1, at);
+      if (hole_cell(column, row) < count_of(holes_)) continue;
+      add_node(1 - axis, strip, i, at);
+      add_node(1 - axis, strip, i + 1, at);
     }
   }
 
@@ -155,28 +151,26 @@ class Planner {
   /// @param clear Distance from corners within which it is left out, at the outline.
   void add_ray(int hole, const Point& direction, double clear = 0) {
     const HoleCell& cell = *std::ranges::find(holes_, hole, &HoleCell::hole);
-    const Point low(grid_.x[cell.column], grid_.y[cell.row]), high(grid_.x[cell.column + 1], grid_.y[cell.row + 1]);
     double reach = std::numeric_limits<double>::infinity();
     int axis = 0;
     for (const int each : {0, 1}) {
       if (direction[each] == 0) continue;
-      const double distance = ((direction[each] > 0 ? high : low)[each] - cell.center[each]) / direction[each];
+      const double distance =
+          ((direction[each] > 0 ? cell.high : cell.low)[each] - cell.center[each]) / direction[each];
       if (distance < reach) reach = distance, axis = each;
     }
     const CellSide side = axis == 0 ? (direction.x() > 0 ? right : left) : (direction.y() > 0 ? top : bottom);
     if (cell.cuts[side]) return;
     const double at = cell.center[1 - axis] + reach * direction[1 - axis];
-    const double from_corner = std::min(at - low[1 - axis], high[1 - axis] - at);
-    if (from_corner < std::max(clear * 0.3, same * size_)) return;
-    const int line = axis == 0 ? cell.column : cell.row;
-    result_.nodes.add(axis, axis == 0 ? cell.row : cell.column, line + (direction[axis] > 0 ? 1 : 0), at);
+    const double from_corner = std::min(at - cell.low[1 - axis], cell.high[1 - axis] - at);
+    if (from_corner < std::max(clear * 0.3, margin_)) return;
+    add_node(axis, cell.index[1 - axis], cell.index[axis] + (direction[axis] > 0 ? 1 : 0), at);
   }
 
   const PlateScene& scene_;
   const GridGeometry& grid_;
   const std::vector<HoleCell>& holes_;
-  const std::vector<CrackPlace>& places_;
-  double size_ = 0;
+  double margin_;  ///< of places that count as one, length
   int crack_ = 0;
   GridCracks result_;
 };
@@ -197,8 +191,8 @@ double between(const std::vector<CellTip>& tips, const std::vector<double>& valu
 }  // namespace
 
 GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
-                       const std::vector<CrackPlace>& places) {
-  return Planner(scene, grid, holes, places).run();
+                       const std::vector<std::vector<TipPlace>>& tips) {
+  return Planner(scene, grid, holes).run(tips);
 }
 
 std::vector<Eigen::VectorXd> tip_layers(const std::vector<CellTip>& tips, double radius, const Point& center,
@@ -234,11 +228,11 @@ std::vector<Eigen::VectorXd> tip_layers(const std::vector<CellTip>& tips, double
   return layers;
 }
 
-std::vector<CrackPath> crack_paths(const GridCracks& cracks, const PlateMesh& plate) {
+std::vector<CrackPath> crack_paths(const PlateScene& scene, const PlateMesh& plate) {
   const double size = (plate.mesh.nodes.rowwise().maxCoeff() - plate.mesh.nodes.rowwise().minCoeff()).norm();
   std::vector<CrackPath> paths;
-  for (int i = 0; i < count_of(cracks.lines); ++i) {
-    const auto& [from, to] = cracks.lines[i];
+  for (int i = 0; i < count_of(scene.cracks); ++i) {
+    const Point &from = scene.cracks[i].from, &to = scene.cracks[i].to;
     const double length = (to - from).norm();
     const Point along = (to - from) / length;
     const auto is_on = [&](int node) {

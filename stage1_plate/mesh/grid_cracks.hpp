@@ -20,15 +20,15 @@ struct CellTip {
 
 /// What cracks ask of the mesh of a grid.
 struct GridCracks {
-  FixedNodes nodes;                        ///< where they and their tips need mesh lines
+  SideNodes nodes;                         ///< where they and their tips need mesh lines
   std::vector<std::vector<CellTip>> tips;  ///< inside the cell of each hole, in the order of the cells
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> lines;  ///< both ends of each crack
 };
 
 /// Plans the mesh lines of the scene's cracks. Throws InputError for a crack that runs through a hole, or that runs
 /// through the cell of a hole but not towards its centre.
 [[nodiscard]] GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid,
-                                     const std::vector<HoleCell>& holes, const std::vector<CrackPlace>& places);
+                                     const std::vector<HoleCell>& holes,
+                                     const std::vector<std::vector<TipPlace>>& tips);
 
 /// Radial coordinates of the layers of elements in the cell of a hole with tips: for each layer one for each ray.
 /// @param outline Points of the cell's outline, one on each ray. @param nearest Distance to the nearest side.
@@ -37,6 +37,6 @@ struct GridCracks {
                                                       const std::vector<Eigen::Vector2d>& outline, double nearest);
 
 /// The edges of the mesh along each crack.
-[[nodiscard]] std::vector<CrackPath> crack_paths(const GridCracks& cracks, const PlateMesh& plate);
+[[nodiscard]] std::vector<CrackPath> crack_paths(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

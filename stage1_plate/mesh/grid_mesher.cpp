@@ -18,6 +18,7 @@ using Point = Eigen::Vector2d;
 /// Collects nodes and elements. Both neighbours of a cell line give its points with equal digits.
 class Builder {
  public:
+  explicit Builder(const GridGeometry& grid) : grid_(grid) {}
   int shared_node(const Point& at) {
     const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, count_of(nodes_));
     return is_new ? own_node(at) : found->second;
@@ -26,10 +27,11 @@ class Builder {
     nodes_.push_back(at);
     return count_of(nodes_) - 1;
   }
-  void quad(const Eigen::Vector4i& nodes, double thickness, int material) {
+  void quad(const Eigen::Vector4i& nodes, const Cell& cell) {
+    const auto [column, row] = cell.index;
     quads_.push_back(nodes);
-    thickness_.push_back(thickness);
-    material_.push_back(material);
+    thickness_.push_back(grid_.thickness(row, column));
+    material_.push_back(grid_.material(row, column));
   }
   void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
   [[nodiscard]] int n_elements() const { return count_of(quads_); }
@@ -43,6 +45,7 @@ class Builder {
   }
 
  private:
+  const GridGeometry& grid_;
   std::map<std::pair<double, double>, int> index_;
   std::vector<Point> nodes_;
   std::vector<Eigen::Vector4i> quads_;
@@ -51,23 +54,6 @@ class Builder {
   std::vector<pfem::Arc> arcs_;
 };
 
-/// A cell of the grid.
-struct Cell {
-  int column, row;
-  Point low, high;  ///< corners bottom left and top right
-  double thickness;
-  int material;
-};
-
-Cell cell_at(const GridGeometry& grid, int column, int row) {
-  return {column,
-          row,
-          {grid.x[column], grid.y[row]},
-          {grid.x[column + 1], grid.y[row + 1]},
-          grid.thickness(row, column),
-          grid.material(row, column)};
-}
-
 std::vector<double> with_ends(double low, const std::vector<double>& inner, double high) {
   std::vector<double> all = {low};
   all.insert(all.end(), inner.begin(), inner.end());
@@ -75,22 +61,22 @@ std::vector<double> with_ends(double low, const std::vector<double>& inner, doub
   return all;
 }
 
-void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell) {
-  const auto x = with_ends(cell.low.x(), lines.nodes(cell.column, cell.row, bottom), cell.high.x());
-  const auto y = with_ends(cell.low.y(), lines.nodes(cell.column, cell.row, left), cell.high.y());
+void mesh_plain_cell(Builder& builder, const SideNodes& nodes, const Cell& cell) {
+  const auto x = with_ends(cell.low.x(), nodes.of(cell, bottom), cell.high.x());
+  const auto y = with_ends(cell.low.y(), nodes.of(cell, left), cell.high.y());
   for (int j = 0; j + 1 < count_of(y); ++j)
     for (int i = 0; i + 1 < count_of(x); ++i)
       builder.quad({builder.shared_node({x[i], y[j]}), builder.shared_node({x[i + 1], y[j]}),
                     builder.shared_node({x[i + 1], y[j + 1]}), builder.shared_node({x[i], y[j + 1]})},
-                   cell.thickness, cell.material);
+                   cell);
 }
 
 /// Points of one side in counter-clockwise order, without the last.
-std::vector<Point> side_points(const CellLines& lines, const Cell& cell, int side) {
+std::vector<Point> side_points(const SideNodes& nodes, const Cell& cell, int side) {
   const std::array<Point, n_cell_sides> corners = {
       cell.low, {cell.high.x(), cell.low.y()}, cell.high, {cell.low.x(), cell.high.y()}};
   const Point& corner = corners[side];
-  auto at = lines.nodes(cell.column, cell.row, static_cast<CellSide>(side));
+  auto at = nodes.of(cell, static_cast<CellSide>(side));
   if (side == top || side == left) std::reverse(at.begin(), at.end());
   std::vector<Point> points = {corner};
   for (const double t : at)
@@ -100,7 +86,7 @@ std::vector<Point> side_points(const CellLines& lines, const Cell& cell, int sid
 
 /// The cell's outline around the hole, counter-clockwise: closed (first point repeated) for a whole hole, else from
 /// edge to edge of the plate.
-std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleCell& hole) {
+std::vector<Point> outline(const SideNodes& nodes, const HoleCell& hole) {
   int first = 0;  // the side after a cut that is not cut itself
   for (int side = 0; side < n_cell_sides; ++side)
     if (hole.cuts[side] && !hole.cuts[(side + 1) % n_cell_sides]) first = (side + 1) % n_cell_sides;
@@ -109,17 +95,17 @@ std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleC
   for (int i = 0; i < n_cell_sides; ++i) {
     const int side = (first + i) % n_cell_sides;
     if (hole.cuts[side]) continue;
-    const auto next = side_points(lines, cell, side);
+    const auto next = side_points(nodes, hole, side);
     points.insert(points.end(), next.begin(), next.end());
     last = side;
   }
-  points.push_back(side_points(lines, cell, (last + 1) % n_cell_sides).front());
+  points.push_back(side_points(nodes, hole, (last + 1) % n_cell_sides).front());
   return points;
 }
 
 /// Distance from a hole's centre to the nearest side of its cell that does not cut the hole.
-double nearest_side(const Cell& cell, const HoleCell& hole) {
-  const Point below = hole.center - cell.low, above = cell.high - hole.center;
+double nearest_side(const HoleCell& hole) {
+  const Point below = hole.center - hole.low, above = hole.high - hole.center;
   const std::array<double, n_cell_sides> distance = {below.y(), above.x(), above.y(), below.x()};
   double nearest = std::numeric_limits<double>::infinity();
   for (int side = 0; side < count_of(distance); ++side)
@@ -158,27 +144,25 @@ std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, 
   return nodes;
 }
 
-void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, const HoleCell& hole_cell,
-                    const Hole& hole, const std::vector<CellTip>& tips) {
-  const auto points = outline(lines, cell, hole_cell);
-  const double nearest = nearest_side(cell, hole_cell);
+void mesh_hole_cell(Builder& builder, const SideNodes& nodes, const HoleCell& cell, const Hole& hole,
+                    const std::vector<CellTip>& tips) {
+  const auto points = outline(nodes, cell);
+  const double nearest = nearest_side(cell);
   const auto radii = tips.empty() ? ring_radii(nearest, hole.radius, hole.rings, std::ssize(points))
-                                  : tip_layers(tips, hole.radius, hole_cell.center, points, nearest);
+                                  : tip_layers(tips, hole.radius, cell.center, points, nearest);
   std::vector<std::vector<int>> layers;
   for (const auto& each : radii)
-    layers.push_back(ring_nodes(builder, points, hole_cell.center, each, each.maxCoeff() < nearest));
+    layers.push_back(ring_nodes(builder, points, cell.center, each, each.maxCoeff() < nearest));
   layers.emplace_back();
   for (const auto& point : points) layers.back().push_back(builder.shared_node(point));
   for (int k = 0; k + 1 < count_of(layers); ++k)
     for (int i = 0; i + 1 < count_of(points); ++i)
-      builder.quad({layers[k][i], layers[k + 1][i], layers[k + 1][i + 1], layers[k][i + 1]}, cell.thickness,
-                   cell.material);
+      builder.quad({layers[k][i], layers[k + 1][i], layers[k + 1][i + 1], layers[k][i + 1]}, cell);
 }
 
 /// Range of elements of a cell with a hole: [first, last).
 struct CellElements {
-  const HoleCell* hole;
-  Cell cell;
+  const HoleCell* cell;
   int first, last;
 };
 
@@ -207,36 +191,35 @@ void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& pl
   for (const rim::Axis direction : scene.disc_directions) {
     const int axis = rim::coordinate(direction);
     const auto add = [&](CellSide side, int sign, const Point& corner) {
-      if (!at.hole->cuts[side])
+      if (!at.cell->cuts[side])
         plate.sections.push_back(
-            {at.hole->hole, rim::name_of({direction, sign}), sides_on(plate, at.first, at.last, axis, corner[axis])});
+            {at.cell->hole, rim::name_of({direction, sign}), sides_on(plate, at.first, at.last, axis, corner[axis])});
     };
-    add(axis == 0 ? right : top, 1, at.cell.high);
-    add(axis == 0 ? left : bottom, -1, at.cell.low);
+    add(axis == 0 ? right : top, 1, at.cell->high);
+    add(axis == 0 ? left : bottom, -1, at.cell->low);
   }
 }
 
 }  // namespace
 
 PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& given) {
-  const auto places = place_cracks(scene, given);
-  const auto [grid, moves] = lines_through_tips(scene, given, places);
+  const auto tips = place_tips(scene, given);
+  const auto [grid, moves] = lines_through_tips(scene, given, tips);
   const auto holes = find_hole_cells(scene, grid);
-  const GridCracks cracks = plan_cracks(scene, grid, holes, places);
-  const CellLines lines(scene, grid, holes, cracks.nodes);
-  Builder builder;
+  const GridCracks cracks = plan_cracks(scene, grid, holes, tips);
+  const SideNodes nodes = place_nodes(scene, grid, holes, cracks.nodes);
+  Builder builder(grid);
   std::vector<CellElements> with_hole;
   for (int row = 0; row < grid.thickness.rows(); ++row)
     for (int column = 0; column < grid.thickness.cols(); ++column) {
+      const int first = builder.n_elements();
       const Cell cell = cell_at(grid, column, row);
-      const auto hole = std::find_if(holes.begin(), holes.end(),
-                                     [&](const HoleCell& h) { return h.column == column && h.row == row; });
+      const auto hole = std::ranges::find(holes, cell.index, &HoleCell::index);
       if (hole == holes.end()) {
-        mesh_plain_cell(builder, lines, cell);
+        mesh_plain_cell(builder, nodes, cell);
       } else {
-        const int first = builder.n_elements();
-        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[hole->hole], cracks.tips[hole - holes.begin()]);
-        with_hole.push_back({&*hole, cell, first, builder.n_elements()});
+        mesh_hole_cell(builder, nodes, *hole, scene.holes[hole->hole], cracks.tips[hole - holes.begin()]);
+        with_hole.push_back({&*hole, first, builder.n_elements()});
       }
     }
   PlateMesh plate;
@@ -244,7 +227,7 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& given) {
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);
-  open_cracks(scene, crack_paths(cracks, plate), plate);
+  open_cracks(scene, crack_paths(scene, plate), plate);
   plate.moved_lines = moves;
   return plate;
 }

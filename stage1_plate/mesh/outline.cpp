@@ -16,20 +16,21 @@ namespace {
 using Point = Eigen::Vector2d;
 
 using Piece = OutlinePiece;
-using Places = std::set<std::pair<int, int>>;  ///< element, local edge
+using Sides = std::set<pfem::Side>;
 
-Places sides_with(const std::map<std::string, std::vector<pfem::Side>>& sets, const std::set<std::string>& names) {
-  Places places;
+Sides sides_with(const std::map<std::string, std::vector<pfem::Side>>& sets, const std::set<std::string>& names) {
+  Sides sides;
   for (const auto& name : names)
     if (const auto found = sets.find(name); found != sets.end())
-      for (const auto& side : found->second) places.insert({side.element, side.local_edge});
-  return places;
+      sides.insert(found->second.begin(), found->second.end());
+  return sides;
 }
 
 /// Ends of the chords of a side.
-std::vector<Point> points_of(const PlateMesh& plate, int element, int local_edge) {
+std::vector<Point> points_of(const PlateMesh& plate, const pfem::Side& side) {
   constexpr int chords = 8;
-  const bool is_arc = plate.edges.arc[plate.edges.of_element(local_edge, element)] >= 0;
+  const auto [element, local_edge] = side;
+  const bool is_arc = plate.edges.arc[plate.edges.of(side)] >= 0;
   const pfem::ElementMap map(plate.mesh, plate.edges, element);
   std::vector<Point> points;
   for (int i = 0; i <= (is_arc ? chords : 1); ++i) {
@@ -107,21 +108,19 @@ std::vector<OutlinePiece> outline_of(const PlateScene& scene, const PlateMesh& p
   std::set<std::string> held_names;
   for (const auto& support : scene.supports) held_names.insert(support.on);
   for (const auto& external : scene.externals) held_names.insert(external.on);
-  const Places held = sides_with(plate.sets, held_names);
-  Places rims;
-  for (const auto& rim : plate.rims)
-    for (const auto& side : rim.sides) rims.insert({side.element, side.local_edge});
+  const Sides held = sides_with(plate.sets, held_names);
+  Sides rims;
+  for (const auto& rim : plate.rims) rims.insert(rim.sides.begin(), rim.sides.end());
   const double size = (plate.mesh.nodes.rowwise().maxCoeff() - plate.mesh.nodes.rowwise().minCoeff()).norm();
   const double tolerance = 1e-9 * size;
   std::vector<Piece> pieces;
-  for (int element = 0; element < plate.mesh.n_elements(); ++element)
-    for (int local = 0; local < 4; ++local) {
-      if (plate.edges.n_elements[plate.edges.of_element(local, element)] > 1 || rims.contains({element, local}))
-        continue;
-      const auto points = points_of(plate, element, local);
-      for (std::size_t i = 0; i + 1 < points.size(); ++i)
-        pieces.push_back({points[i], points[i + 1], !held.contains({element, local})});
-    }
+  for (int edge = 0; edge < plate.edges.size(); ++edge) {
+    const pfem::Side& side = plate.edges.sides[edge].front();
+    if (!plate.edges.is_border(edge) || rims.contains(side)) continue;
+    const auto points = points_of(plate, side);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      pieces.push_back({points[i], points[i + 1], !held.contains(side)});
+  }
   // The faces of a crack lie on each other.
   const auto middle = [&](std::size_t i) -> Point { return (pieces[i].from + pieces[i].to) / 2; };
   PointIndex middles(tolerance);

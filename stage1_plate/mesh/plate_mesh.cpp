@@ -36,7 +36,7 @@ void check_elements(const PlateScene& scene, const PlateMesh& plate) {
 /// The centres in the mesh differ by at most rim::same_place.
 void share_center(const rim::Rim& rim, PlateMesh& plate) {
   const auto arc_of = [&](const pfem::Side& side) -> pfem::Arc& {
-    return plate.mesh.arcs[plate.edges.arc[plate.edges.of_element(side.local_edge, side.element)]];
+    return plate.mesh.arcs[plate.edges.arc[plate.edges.of(side)]];
   };
   for (const auto& side : rim.sides) arc_of(side).center = arc_of(rim.sides[0]).center;
 }
@@ -45,7 +45,7 @@ void share_center(const rim::Rim& rim, PlateMesh& plate) {
 bool is_cracked(const PlateMesh& plate, const rim::Rim& rim) {
   std::map<int, double> angles;
   for (const auto& side : rim.sides)
-    for (const int node : plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element))) {
+    for (const int node : plate.edges.nodes.col(plate.edges.of(side))) {
       const Eigen::Vector2d ray = plate.mesh.nodes.col(node) - rim.center;
       angles[node] = std::atan2(ray.y(), ray.x());
     }
@@ -118,6 +118,14 @@ std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mes
 }
 
 }  // namespace
+
+int edge_between(const PlateScene& scene, const pfem::Edges& edges, const std::string& pointer, int a, int b) {
+  const int edge = edges.between(a, b);
+  if (edge < 0)
+    reject(scene, pointer, fmt::format("nodes {} and {} are not joined by an edge of an element", a, b),
+           "edges of elements");
+  return edge;
+}
 
 PlateMesh make_mesh(const PlateScene& scene) {
   PlateMesh plate = std::holds_alternative<GridGeometry>(scene.geometry)

@@ -25,6 +25,10 @@ struct PlateMesh {
   std::vector<bool> is_cracked;                         ///< for each hole: true if a crack begins at its rim
 };
 
+/// The edge between two nodes. Throws InputError for the place in the file if no element has it.
+[[nodiscard]] int edge_between(const PlateScene& scene, const pfem::Edges& edges, const std::string& pointer, int a,
+                               int b);
+
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.
 [[nodiscard]] PlateMesh make_mesh(const PlateScene& scene);
 

@@ -20,7 +20,7 @@ struct Line {
 
 /// True if a side of an element lies on the line.
 bool is_on(const PlateScene& scene, const PlateMesh& plate, const Line& line, const pfem::Side& side) {
-  const auto ends = plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element));
+  const auto ends = plate.edges.nodes.col(plate.edges.of(side));
   const double tolerance = rim::same_place * scene.holes[line.hole].radius;
   return ((plate.mesh.nodes(rim::coordinate(line.across), ends).array() - line.at).abs() < tolerance).all();
 }

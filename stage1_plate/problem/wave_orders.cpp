@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "common/count.hpp"
 #include "common/rim/rim_compliance.hpp"
@@ -17,25 +16,14 @@ namespace {
 /// Sides where the field may lose smoothness: edges of the plate, and edges between elements of different thickness or
 /// material.
 std::vector<pfem::Side> rough_sides(const PlateMesh& plate) {
-  const auto& [mesh, edges] = std::tie(plate.mesh, plate.edges);
-  std::vector<int> count(edges.size(), 0), first(edges.size(), -1);
-  std::vector<bool> is_step(edges.size(), false);
-  for (int element = 0; element < mesh.n_elements(); ++element)
-    for (int local = 0; local < pfem::n_local_edges; ++local) {
-      const int edge = edges.of_element(local, element);
-      if (count[edge]++ == 0)
-        first[edge] = element;
-      else
-        is_step[edge] = mesh.thickness[element] != mesh.thickness[first[edge]] ||
-                        mesh.material[element] != mesh.material[first[edge]];
-    }
-  std::vector<pfem::Side> sides;
-  for (int element = 0; element < mesh.n_elements(); ++element)
-    for (int local = 0; local < pfem::n_local_edges; ++local) {
-      const int edge = edges.of_element(local, element);
-      if (first[edge] == element && (count[edge] == 1 || is_step[edge])) sides.push_back({element, local});
-    }
-  return sides;
+  const pfem::Mesh& mesh = plate.mesh;
+  const auto differ = [&](int one, int other) {
+    return mesh.thickness[one] != mesh.thickness[other] || mesh.material[one] != mesh.material[other];
+  };
+  std::vector<pfem::Side> rough;
+  for (const auto& sides : plate.edges.sides)
+    if (sides.size() == 1 || differ(sides[0].element, sides[1].element)) rough.push_back(sides[0]);
+  return rough;
 }
 
 /// Distance of the image source of a hole behind a straight edge, in the limit of all reflections between the two: of

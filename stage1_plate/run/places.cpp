@@ -24,8 +24,7 @@ void add_edge(const PlateMesh& plate, const std::string& edge, rim::Axis axis, R
   for (const auto& side : plate.sets.at(edge)) {
     const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, degree);
     for (int q = 0; q < rule.ds.size(); ++q) range.add(rule.x(along, q));
-    for (const int node : plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element)))
-      range.add(plate.mesh.nodes(along, node));
+    for (const int node : plate.edges.nodes.col(plate.edges.of(side))) range.add(plate.mesh.nodes(along, node));
   }
 }
 

@@ -33,54 +33,60 @@ void read_between_points(const Value& value, Crack& crack) {
   crack.tips = 2;
 }
 
+/// Unit vector at an angle; exact along an axis, so that nodes along a crack have equal digits.
+Eigen::Vector2d direction_at(double angle) {
+  const double quarters = 4 * angle / rim::full_turn;
+  const auto nearest = std::lround(quarters);
+  if (std::abs(quarters - double(nearest)) > 1e-12) return {std::cos(angle), std::sin(angle)};
+  const Eigen::Vector2d along(nearest % 2 == 0 ? 1 : 0, nearest % 2 == 0 ? 0 : 1);
+  return (nearest % 4 + 4) % 4 < 2 ? along : Eigen::Vector2d(-along);
+}
+
 void read_from_hole(const Value& value, const std::vector<Hole>& holes, Crack& crack) {
   crack.hole = read_hole(value.at("from"), holes);
+  const Hole& hole = holes[*crack.hole];
   if (const auto to = value.find("to")) {
     value.only({"id", "from", "to"});
-    crack.to_hole = read_hole(*to, holes);
-    if (*crack.to_hole == *crack.hole) to->not_allowed("another hole than that of \"from\"");
-    const Eigen::Vector2d way = holes[*crack.to_hole].center - holes[*crack.hole].center;
-    crack.angle = std::atan2(way.y(), way.x());
+    const Hole& other = holes[read_hole(*to, holes)];
+    if (&other == &hole) to->not_allowed("another hole than that of \"from\"");
+    const Eigen::Vector2d way = other.center - hole.center;
+    crack.from = hole.center + hole.radius * direction_at(std::atan2(way.y(), way.x()));
+    crack.to = other.center - other.radius * (other.center - crack.from).normalized();
     crack.tips = 0;
     return;
   }
   value.only({"id", "from", "angle", "length"});
-  crack.angle = value.at("angle").number() * rim::degree;
-  crack.length = read_quantity(value.at("length"));
+  const Eigen::Vector2d along = direction_at(value.at("angle").number() * rim::degree);
+  crack.from = hole.center + hole.radius * along;
+  crack.to = crack.from + read_quantity(value.at("length")) * along;
 }
 
-void read_from_border(const Value& value, Crack& crack) {
+void read_from_border(const Value& value, const GridGeometry& grid, Crack& crack) {
   const Value from = value.at("from");
-  if (index_of(borders, from.text()) == count_of(borders))
+  const int border = index_of(borders, from.text());
+  if (border == count_of(borders))
     from.fail(fmt::format("\"{}\"", from.text()), "\"hole:ID\", left, right, bottom, top, or a point [x, y]");
-  crack.border = from.text();
   value.only({"id", "from", "at", "length"});
-  crack.at = read_coordinate(value.at("at"));
-  crack.length = read_quantity(value.at("length"));
-  const int quarter = crack.border == "left" ? 0 : crack.border == "bottom" ? 1 : crack.border == "right" ? 2 : 3;
-  crack.angle = quarter * rim::full_turn / 4;
+  const int axis = border / 2;
+  const bool is_low = border % 2 == 0;
+  const auto& lines = grid.lines(axis);
+  crack.from[axis] = is_low ? lines.front() : lines.back();
+  crack.from[1 - axis] = read_coordinate(value.at("at"));
+  crack.to = crack.from;
+  crack.to[axis] += (is_low ? 1 : -1) * read_quantity(value.at("length"));
 }
 
-void read_grid_crack(const Value& value, const std::vector<Hole>& holes, Crack& crack) {
+void read_grid_crack(const Value& value, const PlateScene& scene, Crack& crack) {
   const Value from = value.at("from");
   if (from.is_array())
     read_between_points(value, crack);
   else if (from.text().starts_with(hole_prefix))
-    read_from_hole(value, holes, crack);
+    read_from_hole(value, scene.holes, crack);
   else
-    read_from_border(value, crack);
+    read_from_border(value, std::get<GridGeometry>(scene.geometry), crack);
 }
 
 }  // namespace
-
-Eigen::Vector2d Crack::direction() const {
-  const double quarters = 4 * angle / rim::full_turn;
-  const auto nearest = std::lround(quarters);
-  if (std::abs(quarters - double(nearest)) > 1e-12) return {std::cos(angle), std::sin(angle)};
-  // exact along an axis, so that nodes along the crack have equal digits
-  const Eigen::Vector2d along(nearest % 2 == 0 ? 1 : 0, nearest % 2 == 0 ? 0 : 1);
-  return (nearest % 4 + 4) % 4 < 2 ? along : Eigen::Vector2d(-along);
-}
 
 std::vector<Crack> read_cracks(const Value& root, const PlateScene& scene) {
   std::vector<Crack> cracks;
@@ -95,7 +101,7 @@ std::vector<Crack> read_cracks(const Value& root, const PlateScene& scene) {
       for (const auto& [name, edges] : mesh->edges) names.push_back(name);
       crack.on = item.at("on").choice(names);
     } else {
-      read_grid_crack(item, scene.holes, crack);
+      read_grid_crack(item, scene, crack);
     }
     // Both tips of a crack have names of their own, which no other crack may have either.
     for (const char* end : {"", " start", " end"})

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +25,11 @@ struct GridGeometry {
   std::vector<double> x, y;   ///< cell lines, ascending, length
   Eigen::MatrixXd thickness;  ///< (y cells, x cells), bottom row first, length
   Eigen::MatrixXi material;   ///< (y cells, x cells) index into PlateScene::elasticity
+
+  /// Cell lines across an axis, 0 for x, 1 for y.
+  [[nodiscard]] const std::vector<double>& lines(int axis) const { return axis == 0 ? x : y; }
+  /// Length of the diagonal.
+  [[nodiscard]] double size() const { return std::hypot(x.back() - x.front(), y.back() - y.front()); }
 };
 
 /// A cut across the plate next to a hole, along edges of the mesh.
@@ -94,17 +100,10 @@ struct External {
 /// A crack before the mesh: in a grid a straight line, in an explicit mesh a named set of edges.
 struct Crack {
   std::string id;
-  std::optional<int> hole{};  ///< hole at whose rim it begins
-  std::string border{};       ///< or "left", "right", "bottom", "top", where it begins at the coordinate `at`
-  double at = 0;              ///< length
-  double angle = 0;           ///< direction from its beginning, radians; of an edge crack inward
-  double length = 0;          ///< from its beginning to its tip; 0 if `to` or `to_hole` gives the other end
-  Eigen::Vector2d from{0, 0}, to{0, 0};  ///< both tips of a crack inside the sheet
-  std::optional<int> to_hole{};          ///< hole at whose rim it ends, without a tip
-  int tips = 1;
-  std::string on{};  ///< name of the set of edges in an explicit mesh
-
-  [[nodiscard]] Eigen::Vector2d direction() const;
+  std::optional<int> hole{};             ///< hole at whose rim it begins
+  Eigen::Vector2d from{0, 0}, to{0, 0};  ///< its ends in a grid
+  int tips = 1;                          ///< 1 at `to`; 2 at both ends; 0 from rim to rim
+  std::string on{};                      ///< name of the set of edges in an explicit mesh
 };
 
 /// The content of PLATE.json, consistent in itself. The meshers check whether the holes fit the geometry.

@@ -48,7 +48,7 @@ Body assemble(const Mesh& mesh, Space space, int p, const Eigen::Matrix2d& stres
                2 * n.function(j % n_modes, element) + j / n_modes) +=
             n.sign(i % n_modes, element) * n.sign(j % n_modes, element) * K(i, j);
     for (int edge = 0; edge < n_local_edges; ++edge) {
-      if (edges.n_elements[edges.of_element(edge, element)] == 2) continue;
+      if (!edges.is_border(edges.of({element, edge}))) continue;
       const SideRule rule = side_rule(mesh, edges, {element, edge}, p);
       const MatrixXd traction =
           stress * rule.normal * (mesh.thickness[element] * rule.ds).asDiagonal() * rule.N.transpose();

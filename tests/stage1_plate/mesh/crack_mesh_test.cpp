@@ -52,7 +52,7 @@ double length_of_faces(const stage1::PlateMesh& plate) {
   double sum = 0;
   for (int element = 0; element < plate.mesh.n_elements(); ++element)
     for (int edge = 0; edge < 4; ++edge) {
-      const bool alone = plate.edges.n_elements[plate.edges.of_element(edge, element)] == 1;
+      const bool alone = plate.edges.is_border(plate.edges.of({element, edge}));
       if (alone && std::ranges::find(named, pfem::Side{element, edge}) == named.end())
         sum += pfem::side_rule(plate.mesh, plate.edges, {element, edge}, 1).ds.sum();
     }

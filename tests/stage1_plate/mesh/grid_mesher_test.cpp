@@ -46,7 +46,7 @@ void expect_conforming(const stage1::PlateMesh& plate, double expected_area) {
   for (const auto& rim : plate.rims) named.insert(named.end(), rim.sides.begin(), rim.sides.end());
   for (int element = 0; element < plate.mesh.n_elements(); ++element)
     for (int edge = 0; edge < 4; ++edge) {
-      const bool alone = plate.edges.n_elements[plate.edges.of_element(edge, element)] == 1;
+      const bool alone = plate.edges.is_border(plate.edges.of({element, edge}));
       const bool is_named = std::find(named.begin(), named.end(), pfem::Side{element, edge}) != named.end();
       EXPECT_EQ(alone, is_named) << "element " << element << " edge " << edge;
     }
