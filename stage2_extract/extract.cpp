@@ -65,20 +65,6 @@ void balance(const FreeTranslation& free, formats::PlateCases& level) {
   balance(free.motion, free.traction, level.T);
 }
 
-/// Names and places of the tips of cracks.
-void describe_tips(const std::vector<pfem::CrackTip>& tips, formats::CrackRows& a) {
-  const auto t = std::ssize(tips);
-  a.at.resize(t, 2);
-  a.angle.resize(t);
-  a.length.resize(t);
-  for (Eigen::Index i = 0; i < t; ++i) {
-    a.tip.push_back(tips[i].id);
-    a.at.row(i) = tips[i].at.transpose();
-    a.angle[i] = tips[i].angle;
-    a.length[i] = tips[i].length;
-  }
-}
-
 void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrices& a) {
   const auto e = a.n_externals(), m = a.n_discs();
   for (const auto& [S, R, T, C_t, W, N, V, K] : levels) {
@@ -91,7 +77,7 @@ void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrice
     a.T_d.push_back(T.bottomRows(m));
     a.C_t.push_back(C_t);
     a.W.emplace_back(W.topRows(a.n_loaded_waves()));
-    const auto t = std::ssize(a.cracks.tip);
+    const auto t = std::ssize(a.cracks.tips);
     a.cracks.K_I.emplace_back(K.topRows(t));
     a.cracks.K_II.emplace_back(K.bottomRows(t));
   }
@@ -122,7 +108,7 @@ Extraction extract(formats::PlateSolution plate, const std::string& generator, b
     a.unsupported.push_back(rim::name_of(free.axis));
     for (auto& level : plate.cases) balance(free, level);
   }
-  describe_tips(plate.tips, a.cracks);
+  a.cracks.tips = plate.tips;
   store(plate.cases, a);
   a.stresses = describe_holes(plate, with_stresses);
   if (!with_stresses) a.waves.resize(a.contact.size());

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
+#include "common/pfem/crack_tip.hpp"
+#include "common/pfem/mesh.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/rim/elastic_disk.hpp"
 #include "common/rim/harmonics.hpp"
@@ -64,11 +67,8 @@ struct WaveRim {
   return waves;
 }
 
-/// The outline of a sheet, in straight pieces.
-struct Border {
-  Eigen::MatrixXd ends = Eigen::MatrixXd(0, 4);  ///< (k, 4) x and y of both ends of each piece, length
-  Eigen::VectorXi is_free{};                     ///< (k) 1 for an edge without supports and loads, else 0
-};
+/// The outline of a sheet.
+using Border = std::vector<pfem::OutlinePiece>;
 
 /// Places at which forces act on a plate; empty in a file before these had them.
 struct Places {
@@ -122,34 +122,36 @@ struct UnitCases {
   }
 };
 
-/// @tparam File An h5::Writer with a const Header, or an h5::Reader with a Header. A reader then compares units only if
-/// the file has labels of its units.
-template <class File, class AnyHeader>
-void header(File& file, AnyHeader& a);
+/// What a reader fills in, or a writer writes.
+template <class File, class T>
+using Data = std::conditional_t<File::reads, T, const T>;
 
-/// The root attribute `space`; a file without it leaves `a` unchanged. Throws FileError for an unknown name.
-template <class File, class AnySpace>
-void space(File& file, AnySpace& a);
+/// A reader then compares units only if the file has labels of its units.
+template <class File>
+void header(File& file, Data<File, Header>& a);
+
+/// Attributes and datasets of UnitCases but its header. Throws FileError for an unknown name of a space.
+/// @param holes Names of the holes in a file of stage 1 alone; null for one that other programs may write too, which
+/// may leave out what has a default.
+template <class File>
+void unit_case_datasets(File& file, Data<File, UnitCases>& a, const std::vector<std::string>* holes);
 
 /// The datasets of UnitCases::contact, in a group (its name ends with "/") or in the root.
-template <class File, class Contact>
-void contact_datasets(File& file, Contact& a, const Units& units, const std::string& group = "");
-
-/// The datasets of UnitCases::waves. @param n_contact Number of rims of contact, which come first among them.
-template <class File, class Waves>
-void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& units);
+template <class File>
+void contact_datasets(File& file, Data<File, std::vector<ContactRim>>& a, const Units& units,
+                      const std::string& group = "");
 
 /// The datasets of a Border, in a group (its name ends with "/") or in the root.
-template <class File, class AnyBorder>
-void border_datasets(File& file, AnyBorder& a, const Units& units, const std::string& group = "");
+template <class File>
+void border_datasets(File& file, Data<File, Border>& a, const Units& units, const std::string& group = "");
 
-/// Places of the forces on a plate; no datasets before these had any.
-template <class File, class Places>
-void place_datasets(File& file, Places& a, const Units& units, const UnitCases& cases);
+/// The datasets of the tips of cracks, in a group (its name ends with "/") or in the root.
+template <class File>
+void tip_datasets(File& file, Data<File, std::vector<pfem::CrackTip>>& a, const Units& units,
+                  const std::string& group = "", bool with_angle = true);
 
-/// Coefficients of thermal expansion; no dataset of a sheet without.
-template <class File, class Expansion>
-void expansion_dataset(File& file, Expansion& a);
+/// Highest degree of matrices, which may come from other sources than stage 2.
+inline constexpr int highest_degree = 99;
 
 /// Number of degrees, the highest ones, that include waves without tractions and section forces. Their difference
 /// estimates errors.
@@ -167,9 +169,6 @@ constexpr const char* traction_arm = "moment per force of each traction whose di
 /// Description of the dataset traction/bearing of every file.
 inline constexpr const char* bearing_side =
     "side of the hole that bears, +x, -x, +y or -y, for each traction in a hole, empty for an edge";
-
-/// Allowed bearing sides of tractions; "" for an edge and where a file has none.
-[[nodiscard]] h5::Allowed traction_sides();
 
 /// Allows ascending degrees from 1 to `highest`.
 [[nodiscard]] h5::Allowed degrees(int highest);

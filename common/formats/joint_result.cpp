@@ -97,7 +97,7 @@ void write_holes(h5::Writer& file, const std::string& group, const HoleList& a, 
 
 void write_things(h5::Writer& file, const std::string& group, const PlateHistory& a, const Units& units) {
   const std::string length = unit(units, 1, 0), stress = unit(units, -2, 1);
-  const Eigen::Index q = std::ssize(a.traction_id), g = std::ssize(a.contact), t = std::ssize(a.tips.tip);
+  const Eigen::Index q = std::ssize(a.traction_id), g = std::ssize(a.contact);
   file(group + "traction/bearing", a.traction_bearing, {q}, "1", bearing_side);
   file(group + "traction/arm", a.traction_arm, {q}, length, traction_arm);
   file(group + "contact/gap", a.at_no_load.gap, {g}, length, "radial gap of each rim, negative for interference");
@@ -107,10 +107,7 @@ void write_things(h5::Writer& file, const std::string& group, const PlateHistory
        "load factor at which a rim with interference first loses full contact", h5::not_negative);
   write_holes(file, group + "rim/", a.holes, units);
   border_datasets(file, a.border, units, group);
-  file(group + "crack/tip", a.tips.tip, {t}, "1", "tip of each crack");
-  file(group + "crack/at", a.tips.at, {t, 2}, length, "x and y of each tip");
-  file(group + "crack/length", a.tips.length, {t}, length,
-       "length of the crack from its other end, half of it if both ends are tips");
+  tip_datasets(file, a.tips, units, group, false);
   const Eigen::Index w = std::ssize(a.rows.direction);
   file(group + "row/direction", a.rows.direction, {w}, "1", "x or y, for each row of holes with that coordinate");
   file(group + "row/at", a.rows.at, {w}, length, "this coordinate");
@@ -261,17 +258,20 @@ void write_joint(h5::Writer& file, const JointResult& a) {
 }  // namespace
 
 std::vector<std::string> PlateHistory::names(Of of) const {
-  std::vector<std::string> rims;
-  for (const auto& rim : contact) rims.push_back(rim.hole);
+  const auto named = [](const auto& list, auto member) {
+    std::vector<std::string> names;
+    for (const auto& each : list) names.push_back(each.*member);
+    return names;
+  };
   switch (of) {
     case Of::hole:
       return holes.hole;
     case Of::external:
       return external_id;
     case Of::tip:
-      return tips.tip;
+      return named(tips, &pfem::CrackTip::id);
     case Of::contact:
-      return rims;
+      return named(contact, &ContactRim::hole);
     default:
       throw std::logic_error("things without names cannot stand in an envelope or a study");
   }

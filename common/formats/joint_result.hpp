@@ -37,13 +37,6 @@ struct RimsAtNoLoad {
   Eigen::VectorXd full_until{};
 };
 
-/// The t crack tips of a plate.
-struct TipList {
-  std::vector<std::string> tip{};  ///< (t)
-  Eigen::MatrixXd at{};            ///< (t, 2) x and y, length
-  Eigen::VectorXd length{};        ///< (t) of the crack up to the tip, length
-};
-
 /// The w rows of a plate's holes whose discs move along one axis.
 struct RowList {
   std::vector<std::string> direction{};  ///< (w) "x" or "y"
@@ -62,7 +55,7 @@ struct PlateHistory {
   std::vector<std::string> friction_hole, friction_bearing;
   RimsAtNoLoad at_no_load{};
   HoleList holes{};
-  TipList tips{};
+  std::vector<pfem::CrackTip> tips{};  ///< (t) without their elements
   RowList rows{};
   Border border{};
   std::string materials{};                        ///< JSON text of "materials" in its PLATE.json; empty if unknown

@@ -20,34 +20,13 @@ const h5::Allowed or_none = h5::Allowed{.text = "numbers >= 0", .low = 0}.or_els
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
-  file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(highest_degree));
-  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p", or_else(0));
-  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
-  file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each disc, x or y");
+  unit_case_datasets(file, a, nullptr);
   file("disc/modulus", a.disc_modulus, {a.n_discs()}, unit(a.header.units, -3, 1),
        "modulus of the distributed springs between disc and sheet, 0 where there are none", or_none);
-  file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
-  file("external/direction", a.external_direction, {a.n_externals()}, "1", "x or y, for each external", or_else("x"));
-  file("traction/id", a.traction_id, {any}, "1", traction_boundaries, or_else(""));
-  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x, y or rotation, for each traction",
-       or_else("x"));
-  if (File::reads || std::ssize(a.traction_arm) == a.n_tractions())
-    file("traction/arm", a.traction_arm, {a.n_tractions()}, unit(a.header.units, 1, 0), traction_arm, or_else(0));
-  file("traction/bearing", a.traction_bearing, {a.n_tractions()}, "1", bearing_side, traction_sides());
   h5::Allowed axis = h5::one_of({"x", "y"});
   axis.word = "";
   file("unsupported", a.unsupported, {any}, "1",
        "directions along which no support fixes the plate: the forces on it are in balance there", axis);
-  file("traction/hole", a.traction_hole, {a.n_tractions()}, "1",
-       "open hole that each traction presses on, empty for an edge", or_else(""));
-  contact_datasets(file, a.contact, a.header.units);
-  wave_datasets(file, a.waves, std::ssize(a.contact), a.header.units);
-  border_datasets(file, a.border, a.header.units);
-  file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
-  file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
-  place_datasets(file, a.places, a.header.units, a);
-  expansion_dataset(file, a.expansion);
 }
 
 template <class File, class Matrices>
@@ -122,14 +101,9 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index
 
 template <class File, class Cracks>
 void crack_datasets(File& file, Cracks& a, Eigen::Index n_p, Eigen::Index n_cases, const Units& units) {
-  file("crack/tip", a.tip, {any}, "1", "tip of each crack", or_else(""));
-  const Eigen::Index t = a.tip.size();
+  tip_datasets(file, a.tips, units);
+  const Eigen::Index t = std::ssize(a.tips);
   if (File::reads && t == 0) return;
-  file("crack/at", a.at, {t, 2}, unit(units, 1, 0), "x and y of each tip");
-  file("crack/angle", a.angle, {t}, "rad",
-       "direction in which the crack would grow at each tip, counter-clockwise from x");
-  file("crack/length", a.length, {t}, unit(units, 1, 0),
-       "length of the crack from its other end, half of it if both ends are tips", h5::positive);
   file("crack/K_I", a.K_I, {n_p, t, n_cases}, per_case,
        "stress intensity factor of the opening mode at each tip in each unit case");
   file("crack/K_II", a.K_II, {n_p, t, n_cases}, per_case, "the same of the sliding mode");
@@ -138,7 +112,6 @@ void crack_datasets(File& file, Cracks& a, Eigen::Index n_p, Eigen::Index n_case
 template <class File, class Matrices>
 void matrices_datasets(File& file, Matrices& a) {
   header(file, a.header);
-  space(file, a.space);
   file.attribute("plate_digest", a.plate_digest);
   name_datasets(file, a);
   matrix_datasets(file, a);

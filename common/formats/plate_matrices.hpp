@@ -37,14 +37,9 @@ struct PlateStresses {
 
 /// The t tips of cracks with their stress intensity factors in each unit case.
 struct CrackRows {
-  std::vector<std::string> tip;       ///< (t)
-  Eigen::MatrixXd at;                 ///< (t, 2) x and y, length
-  Eigen::VectorXd angle, length;      ///< (t) as pfem::CrackTip, radians, length
+  std::vector<pfem::CrackTip> tips;   ///< (t) without their elements
   std::vector<StressRows> K_I, K_II;  ///< n_p x (t, n_cases), stress length^1/2 per unit of the case
 };
-
-/// Highest degree of matrices, which may come from other sources than stage 2.
-inline constexpr int highest_degree = 99;
 
 /// What is known of a plate beside its condensed matrices.
 struct PlateProperties : UnitCases {

@@ -18,7 +18,6 @@ using h5::Column;
 
 const h5::Format solution_format{"plate-solution", 5, 4};
 constexpr const char* per_case = "per unit of the case";
-const h5::Allowed axis = h5::one_of({"x", "y"});
 
 template <class File, class Mesh>
 void mesh_datasets(File& file, Mesh& a, Index n_materials, const std::string& length) {
@@ -86,9 +85,6 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
        "index in hole/id of the hole of each arc on which springs act", h5::index_into(n));
   file("hole/arc", Column{arcs, [](auto& arc) { return std::tie(arc.item.from, arc.item.to); }}, {std::ssize(arcs), 2},
        "rad", "start and end of each arc on which springs act, counter-clockwise from x");
-  contact_datasets(file, a.contact, a.header.units);
-  wave_datasets(file, a.waves, std::ssize(a.contact), a.header.units);
-  border_datasets(file, a.border, a.header.units);
   if constexpr (File::reads)
     for (const auto& [hole, range] : arcs) a.hole_spring[hole].arcs.push_back(range);
 }
@@ -104,13 +100,7 @@ void geometry_datasets(File& file, Solution& a) {
        "index in hole/id of the hole that each section is next to", h5::index_into(std::ssize(a.hole_id)));
   file("section/side", Column{a.sections, &rim::Section::side}, {std::ssize(a.sections)}, "1",
        "side of the hole that each section lies on", h5::one_of(side_names));
-  file("crack/tip", Column{a.tips, &pfem::CrackTip::id}, {any}, "1", "tip of each crack", h5::or_else(""));
-  const Index t = std::ssize(a.tips);
-  file("crack/at", Column{a.tips, &pfem::CrackTip::at}, {t, 2}, length, "x and y of each tip");
-  file("crack/angle", Column{a.tips, &pfem::CrackTip::angle}, {t}, "rad",
-       "direction in which the crack would grow at each tip, counter-clockwise from x");
-  file("crack/length", Column{a.tips, &pfem::CrackTip::length}, {t}, length,
-       "length of the crack from its other end, half of it if both ends are tips", h5::positive);
+  tip_datasets(file, a.tips, a.header.units);
   side_dataset(file, "section/sides", a.sections, &rim::Section::sides, a.mesh.n_elements(),
                "each side of an element along a section: index in section/hole, element, local edge");
 }
@@ -118,36 +108,14 @@ void geometry_datasets(File& file, Solution& a) {
 template <class File, class Solution>
 void name_datasets(File& file, Solution& a) {
   file("supported", a.supported, {any}, "1", "directions in which a support fixes the plate");
-  file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(pfem::highest_p));
-  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p",
-       {.text = "numbers that do not fall", .low = 0, .step = 0});
-  file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
-  file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "x or y, for each external", axis);
-  file("traction/id", a.traction_id, {any}, "1", traction_boundaries);
-  const Index q = a.traction_id.size();
-  file("traction/direction", a.traction_direction, {q}, "1", "x, y or rotation, for each traction",
-       h5::one_of({"x", "y", rotation}));
-  file("traction/arm", a.traction_arm, {q}, unit(a.header.units, 1, 0), traction_arm, h5::or_else(0));
-  const h5::Allowed hole{.text = "names in hole/id", .words = a.hole_id};
-  h5::Allowed hole_or_edge = hole;
-  hole_or_edge.words->emplace_back();
-  file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge",
-       hole_or_edge);
-  file("traction/bearing", a.traction_bearing, {q}, "1", bearing_side, traction_sides());
-  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
-  file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
-  file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);
-  file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
-  place_datasets(file, a.places, a.header.units, a);
-  expansion_dataset(file, a.expansion);
-  file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1", "vertex of the mesh of each point spring",
-       h5::index_into(a.mesh.n_nodes()));
+  unit_case_datasets(file, a, &a.hole_id);
+  file("point/vertex", Column{a.points, &rim::PointSpring::vertex}, {any}, "1",
+       "vertex of the mesh of each point spring", h5::index_into(a.mesh.n_nodes()));
   const Index n_points = a.points.size();
-  file("point/disc", Column{a.points, &PointSpring::disc}, {n_points}, "1",
+  file("point/disc", Column{a.points, &rim::PointSpring::disc}, {n_points}, "1",
        "index in disc/hole of the disc that the spring connects it to, along the disc's direction",
        h5::index_into(std::ssize(a.disc_hole)));
-  file("point/stiffness", Column{a.points, &PointSpring::stiffness}, {n_points}, unit(a.header.units, -1, 1),
+  file("point/stiffness", Column{a.points, &rim::PointSpring::stiffness}, {n_points}, unit(a.header.units, -1, 1),
        "stiffness of each of these springs");
 }
 
@@ -205,7 +173,6 @@ void solution_datasets(File& file, Solution& a) {
   const Units& units = a.header.units;
   const std::string length = unit(units, 1, 0), force = unit(units, 0, 1);
   const std::string stress = unit(units, -2, 1), stiffness = unit(units, -1, 1);
-  space(file, a.space);
   geometry_datasets(file, a);
   name_datasets(file, a);
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);

@@ -44,13 +44,6 @@ struct Probe {
   double rounding = 0;              ///< bound of the change of S by rounding, estimated by the first, force / length
 };
 
-/// A spring between a vertex of the mesh and a separate disc, along the disc's direction.
-struct PointSpring {
-  int vertex;
-  int disc;          ///< index into disc_hole
-  double stiffness;  ///< force / length
-};
-
 /// The file from stage 1 to stage 2 (schemas/plate-solution.md).
 ///
 /// The nc = e + m controlled displacements are e rigid externals, then m discs. Unknowns are ordered by degree: the
@@ -69,7 +62,7 @@ struct PlateSolution : UnitCases {
   std::vector<std::string> supported;  ///< directions fixed by a support
   Eigen::VectorXd held_stiffness;   ///< (nc) diagonal of K_cc: stiffness with all plate unknowns fixed, force / length
   Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of the unit tractions on the plate unknowns
-  std::vector<PointSpring> points;
+  std::vector<rim::PointSpring> points;
   std::vector<PlateCases> cases;  ///< (n_p)
   Probe probe;
 

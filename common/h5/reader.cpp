@@ -65,10 +65,6 @@ std::string shape_text(const Shape& shape) {
   return fmt::format("({})", fmt::join(extents, ", "));
 }
 
-}  // namespace
-
-namespace {
-
 /// A file that is held open.
 class OpenFile {
  public:

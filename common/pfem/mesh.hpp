@@ -77,6 +77,12 @@ class Curve {
 /// Curve of a local edge in its natural direction.
 [[nodiscard]] Curve edge_curve(const Mesh& mesh, const Edges& edges, int element, int local_edge);
 
+/// A straight piece of a mesh's outline.
+struct OutlinePiece {
+  Eigen::Vector2d from, to;
+  int is_free;  ///< 0 where a support or an external is, and the sheet or its mirror image may go on, else 1
+};
+
 /// Quadrature along one side of an element, with the traces of the shape functions that do not vanish there.
 struct SideRule {
   std::vector<int> modes;   ///< (n) local modes: the two vertices and the edge's own

@@ -26,12 +26,6 @@ std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, con
   return blocks;
 }
 
-ElementDofs dofs_of(const Eigen::Matrix2Xi& dofs, const Eigen::VectorXi& function, const Eigen::VectorXd& sign) {
-  ElementDofs result{Eigen::VectorXi(2 * function.size()), sign.replicate(2, 1)};
-  result.dof << dofs(0, function).transpose(), dofs(1, function).transpose();
-  return result;
-}
-
 }  // namespace
 
 Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p) {
@@ -59,12 +53,10 @@ Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, in
 }
 
 ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element) {
-  return dofs_of(dofs, numbering.function.col(element), numbering.sign.col(element));
-}
-
-ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element,
-                         const std::vector<int>& modes) {
-  return dofs_of(dofs, numbering.function.col(element)(modes), numbering.sign.col(element)(modes));
+  const Eigen::VectorXi function = numbering.function.col(element);
+  ElementDofs result{Eigen::VectorXi(2 * function.size()), numbering.sign.col(element).replicate(2, 1)};
+  result.dof << dofs(0, function).transpose(), dofs(1, function).transpose();
+  return result;
 }
 
 }  // namespace fastjoint::pfem

@@ -31,14 +31,12 @@ inline constexpr int fixed_dof = -1;
 [[nodiscard]] constexpr bool is_controlled(int dof) { return dof < fixed_dof; }
 [[nodiscard]] constexpr int controlled_index(int dof) { return -2 - dof; }
 
-/// The degrees of freedom of n local modes of an element, first u_x of all, then u_y of all.
+/// The degrees of freedom of the n modes of an element, first u_x of all, then u_y of all.
 struct ElementDofs {
   Eigen::VectorXi dof;   ///< (2n) class of each
   Eigen::VectorXd sign;  ///< (2n) value of the global function per local mode, +1 or -1
 };
 /// @param dofs Class of u_x and u_y of each global function, shape (2, n_functions).
 [[nodiscard]] ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element);
-[[nodiscard]] ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element,
-                                       const std::vector<int>& modes);
 
 }  // namespace fastjoint::pfem

@@ -12,7 +12,6 @@
 #include "common/count.hpp"
 #include "common/pfem/element.hpp"
 #include "common/pfem/material.hpp"
-#include "common/plate/plate_states.hpp"
 
 namespace fastjoint::plate {
 namespace {
@@ -133,7 +132,7 @@ PlateFactor::Functions stress_intensities(const PlateFactor& factor, const pfem:
           stress_intensity_weights(pfem::ElementMap(mesh, edges, element), numbering.space, numbering.p,
                                    elasticity[mesh.material[element]], tips[t]);
       for (const int mode : {0, 1})
-        functions[mode * count_of(tips) + t].push_back(PlateStates::condense(factor, element, weights.col(mode)));
+        functions[mode * count_of(tips) + t].push_back(factor.condense_functions(element, weights.col(mode)));
     }
   return functions;
 }

@@ -143,19 +143,33 @@ PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, 
 
 const CondensedElement& PlateFactor::element(int element) const { return classes_[plate_.elements.class_of[element]]; }
 
+PlateFactor::ElementRows PlateFactor::rows_of(int element) const {
+  const CondensedElement& K = this->element(element);
+  const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, element);
+  ElementRows rows{{}, Eigen::VectorXd::Ones(K.matrix.n_boundary())};
+  rows.sign.head(K.boundary.size()) = dofs.sign(K.boundary);
+  for (const int i : K.boundary) rows.row.push_back(rows_.of_dof(dofs.dof[i]));
+  for (const int column : plate_.unknowns.border_of(plate_.elements.holes[element]))
+    rows.row.push_back(column < rows_.n_border ? rows_.n_skeleton + column : -1);
+  return rows;
+}
+
+CondensedFunctions PlateFactor::condense_functions(int element, const Eigen::MatrixXd& weights) const {
+  const CondensedElement& K = this->element(element);
+  CondensedFunctions result{element, weights(K.interior, Eigen::all),
+                            Eigen::MatrixXd::Zero(K.matrix.n_boundary(), weights.cols())};
+  result.boundary.topRows(K.boundary.size()) = weights(K.boundary, Eigen::all);
+  K.matrix.eliminate(result.interior, result.boundary);
+  return result;
+}
+
 Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skeleton) {
   Eigen::SparseMatrix<double> A = skeleton.pattern(rows_);
   SkeletonAssembler assembler(A);
   diagonal_of_K_cc_ = Eigen::VectorXd::Zero(plate_.unknowns.n_controlled());
   for (int element = 0; element < count_of(plate_.elements.class_of); ++element) {
     const CondensedElement& K = this->element(element);
-    const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, element);
-    Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_boundary());
-    sign.head(K.boundary.size()) = dofs.sign(K.boundary);
-    std::vector<int> rows;
-    for (const int i : K.boundary) rows.push_back(rows_.of_dof(dofs.dof[i]));
-    for (const int column : plate_.unknowns.border_of(plate_.elements.holes[element]))
-      rows.push_back(column < rows_.n_border ? rows_.n_skeleton + column : -1);
+    const auto [rows, sign] = rows_of(element);
     const double scale = plate_.elements.scale[element];
     assembler.add(rows, sign, scale, K.matrix.schur_complement());
     for (const int row : std::set<int>(rows.begin(), rows.end()))
@@ -163,7 +177,8 @@ Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skel
         diagonal_of_K_cc_[i] += scale * reduction_of_diagonal(rows, sign, row, K.matrix);
   }
   for (const auto& tie : plate_.ties) {
-    const int vertex = rows_.of_dof(tie.dof), disc = rows_.n_skeleton + tie.controlled;
+    const int vertex = rows_.of_dof(plate_.unknowns.dof_of(tie));
+    const int disc = rows_.n_skeleton + plate_.unknowns.controlled_of_disc(tie.disc);
     assembler.add(vertex, vertex, tie.stiffness);
     assembler.add(disc, disc, tie.stiffness);
     assembler.add(vertex, disc, -tie.stiffness);
@@ -177,19 +192,13 @@ Eigen::MatrixXd PlateFactor::condensed(const Functions& functions) const {
   std::vector<Eigen::Triplet<double>> on_skeleton, on_border;
   for (int i = 0; i < count_of(functions); ++i)
     for (const auto& part : functions[i]) {
-      const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, part.element);
-      Eigen::Index at = 0;
-      for (const int mode : element(part.element).boundary) {
-        const int row = rows_.of_dof(dofs.dof[mode]);
-        const double weight = dofs.sign[mode] * part.boundary.row(at++).sum();
-        if (row >= rows_.n_skeleton)
-          on_border.emplace_back(i, row - rows_.n_skeleton, weight);
-        else if (row >= 0)
-          on_skeleton.emplace_back(n + i, row, weight);
-      }
-      for (const int column : plate_.unknowns.border_of(plate_.elements.holes[part.element])) {
-        const double weight = part.boundary.row(at++).sum();
-        if (column < n) on_border.emplace_back(i, column, weight);
+      const auto [row, sign] = rows_of(part.element);
+      for (int k = 0; k < count_of(row); ++k) {
+        const double weight = sign[k] * part.boundary.row(k).sum();
+        if (row[k] >= rows_.n_skeleton)
+          on_border.emplace_back(i, row[k] - rows_.n_skeleton, weight);
+        else if (row[k] >= 0)
+          on_skeleton.emplace_back(n + i, row[k], weight);
       }
     }
   for (int column = 0; column < coupling_.outerSize(); ++column)

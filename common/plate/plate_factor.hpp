@@ -54,8 +54,11 @@ class PlateFactor {
   /// Throws NumericalError if the stiffness with all controlled displacements fixed is not positive definite.
   PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool with_other_waves);
 
-  /// Functions of the plate's displacements, each a sum of condensed ones (PlateStates::condense).
+  /// Functions of the plate's displacements, each a sum of condensed ones.
   using Functions = std::vector<std::vector<CondensedFunctions>>;
+  /// Condenses functions of an element's coefficients.
+  /// @param weights Weight of each coefficient of all modes of the element, shape (2 n_modes, r).
+  [[nodiscard]] CondensedFunctions condense_functions(int element, const Eigen::MatrixXd& weights) const;
   /// Schur complement of the border: values per unit of each of the n_prescribed columns. Rows: forces on the
   /// controlled displacements, then integrals over the rims of the disc's displacement relative to the sheet times the
   /// distribution of each wave, then `functions`. They are energy products of the unit fields, and so superconvergent
@@ -67,6 +70,13 @@ class PlateFactor {
 
  private:
   friend class PlateStates;
+  /// Rows of the bordered stiffness for the boundary unknowns of an element and then its border, -1 for those that it
+  /// does not have, and the sign of each.
+  struct ElementRows {
+    std::vector<int> row;
+    Eigen::VectorXd sign;
+  };
+  [[nodiscard]] ElementRows rows_of(int element) const;
   [[nodiscard]] const CondensedElement& element(int element) const;
   /// Stiffness of the skeleton and its border, lower triangle.
   [[nodiscard]] Eigen::SparseMatrix<double> bordered_stiffness(const Skeleton& skeleton);

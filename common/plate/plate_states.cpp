@@ -37,15 +37,13 @@ void PlateStates::eliminate(const Eigen::SparseMatrix<double>& loads) {
     if (interior.isZero(0)) continue;
     MatrixXd boundary = MatrixXd::Zero(K.matrix.n_boundary(), loads.cols());
     K.matrix.eliminate(interior, boundary);
-    Index row = 0;
-    for (const int i : K.boundary) {
-      const auto load = dofs.sign[i] * boundary.row(row++).transpose();
-      if (pfem::is_free(dofs.dof[i])) skeleton_loads_.col(factor_.rows_.of_unknown[dofs.dof[i]]) += load;
-      if (pfem::is_controlled(dofs.dof[i])) border_loads_.col(pfem::controlled_index(dofs.dof[i])) += load;
-    }
-    for (const int i : unknowns.border_of(factor_.plate_.elements.holes[element])) {
-      if (i < border_loads_.cols()) border_loads_.col(i) += boundary.row(row).transpose();
-      ++row;
+    const auto [row, sign] = factor_.rows_of(element);
+    for (int k = 0; k < count_of(row); ++k) {
+      const auto load = sign[k] * boundary.row(k).transpose();
+      if (row[k] >= factor_.rows_.n_skeleton)
+        border_loads_.col(row[k] - factor_.rows_.n_skeleton) += load;
+      else if (row[k] >= 0)
+        skeleton_loads_.col(row[k]) += load;
     }
     interior_[element] = interior / factor_.plate_.elements.scale[element];
   }
@@ -72,21 +70,13 @@ Eigen::VectorXd PlateStates::rounding() const {
 }
 
 MatrixXd PlateStates::boundary_coefficients(int element) const {
-  const PlateStiffness& plate = factor_.plate_;
-  const CondensedElement& K = factor_.element(element);
-  const auto dofs = pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element);
-  MatrixXd u = MatrixXd::Zero(size(), K.matrix.n_boundary());
-  Index column = 0;
-  for (const int i : K.boundary) {
-    const int dof = dofs.dof[i];
-    if (pfem::is_free(dof)) u.col(column) = dofs.sign[i] * skeleton_.col(factor_.rows_.of_unknown[dof]);
-    if (pfem::is_controlled(dof)) u.col(column) = dofs.sign[i] * border_.col(pfem::controlled_index(dof));
-    ++column;
-  }
-  for (const int i : plate.unknowns.border_of(plate.elements.holes[element])) {
-    if (i < border_.cols()) u.col(column) = border_.col(i);
-    ++column;
-  }
+  const auto [row, sign] = factor_.rows_of(element);
+  MatrixXd u = MatrixXd::Zero(size(), count_of(row));
+  for (int k = 0; k < count_of(row); ++k)
+    if (row[k] >= factor_.rows_.n_skeleton)
+      u.col(k) = sign[k] * border_.col(row[k] - factor_.rows_.n_skeleton);
+    else if (row[k] >= 0)
+      u.col(k) = sign[k] * skeleton_.col(row[k]);
   return u;
 }
 
@@ -100,15 +90,6 @@ MatrixXd PlateStates::coefficients(int element) const {
   C(K.interior, Eigen::all) = interior;
   C(K.boundary, Eigen::all) = boundary.topRows(K.boundary.size());
   return C;
-}
-
-CondensedFunctions PlateStates::condense(const PlateFactor& factor, int element, const MatrixXd& weights) {
-  const CondensedElement& K = factor.element(element);
-  CondensedFunctions result{element, weights(K.interior, Eigen::all),
-                            MatrixXd::Zero(K.matrix.n_boundary(), weights.cols())};
-  result.boundary.topRows(K.boundary.size()) = weights(K.boundary, Eigen::all);
-  K.matrix.eliminate(result.interior, result.boundary);
-  return result;
 }
 
 MatrixXd PlateStates::values(const CondensedFunctions& functions) const {

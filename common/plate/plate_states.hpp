@@ -31,10 +31,6 @@ class PlateStates {
   /// the degree.
   [[nodiscard]] Eigen::MatrixXd coefficients(int element) const;
 
-  /// Condenses functions of an element's coefficients.
-  /// @param weights Weight of each coefficient of all modes of the element, shape (2 n_modes, r).
-  [[nodiscard]] static CondensedFunctions condense(const PlateFactor& factor, int element,
-                                                   const Eigen::MatrixXd& weights);
   /// Values of the functions in every state, shape (k, r).
   [[nodiscard]] Eigen::MatrixXd values(const CondensedFunctions& functions) const;
 

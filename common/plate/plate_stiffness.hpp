@@ -31,6 +31,10 @@ struct Unknowns {
   std::vector<int> n_waves{}, n_cases{};            ///< (holes) and their numbers
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }
+  /// Degree of freedom that a point spring acts on.
+  [[nodiscard]] int dof_of(const rim::PointSpring& spring) const {
+    return dofs(rim::coordinate(disc_direction[spring.disc]), spring.vertex);
+  }
   [[nodiscard]] int n_discs() const { return count_of(disc_hole); }
   [[nodiscard]] int n_controlled() const { return n_externals + n_discs(); }
   /// Number of columns of the border with a prescribed value or amplitude: all but the other waves.
@@ -75,12 +79,6 @@ struct PlateElements {
 [[nodiscard]] PlateElements classify_elements(const SprungMesh& sprung, const pfem::Numbering& numbering,
                                               const Unknowns& unknowns);
 
-/// A spring between a degree of freedom of a vertex and a controlled displacement.
-struct PointTie {
-  int vertex, dof, controlled;
-  double stiffness;  ///< force / length
-};
-
 /// The stiffness of a plate at the highest p, stored by class of elements and never assembled as a whole.
 struct PlateStiffness {
   pfem::Numbering numbering;
@@ -88,7 +86,7 @@ struct PlateStiffness {
   PlateElements elements;
   /// Springs between vertices of the mesh and separate discs, section 3.1 of the paper. The displacement of the vertex,
   /// and so the spring's load, does not converge.
-  std::vector<PointTie> ties;
+  std::vector<rim::PointSpring> ties;
 };
 
 /// Stiffness of the springs of all points and of each side of a rim, force / length.

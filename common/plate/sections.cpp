@@ -4,7 +4,6 @@
 #include "common/count.hpp"
 #include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "common/plate/plate_states.hpp"
 
 namespace fastjoint::plate {
 namespace {
@@ -40,7 +39,7 @@ PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mes
       for (const auto& one : sides) {
         const Eigen::VectorXd force =
             side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one, component);
-        forces.back().push_back(PlateStates::condense(factor, one.element, force / count_of(sides)));
+        forces.back().push_back(factor.condense_functions(one.element, force / count_of(sides)));
       }
     }
   };

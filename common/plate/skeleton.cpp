@@ -53,9 +53,11 @@ Skeleton::Skeleton(const PlateStiffness& plate) {
     for (const int column : border) cliques[i].push_back(first_border + column);
     join(cliques[i]);
   }
-  for (const auto& tie : plate.ties)
-    join({pfem::is_free(tie.dof) ? position_[tie.vertex] : first_border + pfem::controlled_index(tie.dof),
-          first_border + tie.controlled});
+  for (const auto& tie : plate.ties) {
+    const int dof = plate.unknowns.dof_of(tie);
+    join({pfem::is_free(dof) ? position_[tie.vertex] : first_border + pfem::controlled_index(dof),
+          first_border + plate.unknowns.controlled_of_disc(tie.disc)});
+  }
   for (auto& list : higher_) sort_unique(list);
 }
 

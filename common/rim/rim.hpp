@@ -70,6 +70,13 @@ struct HoleSpring {
   std::vector<AngleRange> arcs = {};  ///< parts of the rim on which springs act
 };
 
+/// A spring between a vertex of the mesh and a separate disc, along the disc's direction.
+struct PointSpring {
+  int vertex;
+  int disc;          ///< index among all discs
+  double stiffness;  ///< force / length
+};
+
 /// A cut across the plate next to a hole, along sides of the elements between the cut and the hole.
 struct Section {
   int hole;                       ///< index of the hole

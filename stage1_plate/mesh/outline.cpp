@@ -15,7 +15,7 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-using Piece = OutlinePiece;
+using Piece = pfem::OutlinePiece;
 using Sides = std::set<pfem::Side>;
 
 Sides sides_with(const std::map<std::string, std::vector<pfem::Side>>& sets, const std::set<std::string>& names) {
@@ -104,7 +104,7 @@ std::vector<Piece> joined(std::vector<Piece> pieces, double tolerance) {
 
 }  // namespace
 
-std::vector<OutlinePiece> outline_of(const PlateScene& scene, const PlateMesh& plate) {
+std::vector<Piece> outline_of(const PlateScene& scene, const PlateMesh& plate) {
   std::set<std::string> held_names;
   for (const auto& support : scene.supports) held_names.insert(support.on);
   for (const auto& external : scene.externals) held_names.insert(external.on);

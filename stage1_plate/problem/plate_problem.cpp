@@ -112,19 +112,18 @@ std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMes
   return list;
 }
 
-std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-  std::vector<plate::PointTie> ties;
+std::vector<rim::PointSpring> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  std::vector<rim::PointSpring> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
     for (int a = 0; a < count_of(scene.disc_directions); ++a) {
       const rim::Axis direction = scene.disc_directions[a];
-      const int dof = unknowns.dofs(rim::coordinate(direction), plate.point_nodes[i]);
-      if (dof == pfem::fixed_dof)
+      const int disc = unknowns.first_disc.back() + i * count_of(scene.disc_directions) + a;  // after those of holes
+      ties.push_back({plate.point_nodes[i], disc, scene.points[i].stiffness});
+      if (unknowns.dof_of(ties.back()) == pfem::fixed_dof)
         reject(scene, fmt::format("/points/{}/at", i),
                fmt::format("a support fixes the vertex along {}, so that the spring cannot load the plate",
                            rim::name_of(direction)),
                "vertices that are free to move along every one of \"disc_directions\"");
-      const int disc = unknowns.first_disc.back() + i * count_of(scene.disc_directions) + a;  // after those of holes
-      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc), scene.points[i].stiffness});
     }
   return ties;
 }
@@ -238,12 +237,14 @@ std::vector<int> rigid_externals(const PlateScene& scene) {
 
 void add_load(const plate::PlateStiffness& plate, int element, const std::vector<int>& modes,
               const Eigen::VectorXd& values, int column, Loads& loads) {
-  const auto [dof, sign] = pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element, modes);
-  const int n_free = plate.unknowns.n_free.back();
-  for (int i = 0; i < dof.size(); ++i)
-    if (dof[i] != pfem::fixed_dof)
-      loads.emplace_back(pfem::is_free(dof[i]) ? dof[i] : n_free + pfem::controlled_index(dof[i]), column,
-                         sign[i] * values[i]);
+  const auto [dof, sign] = pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element);
+  const int n_free = plate.unknowns.n_free.back(), n = count_of(modes);
+  for (int i = 0; i < 2 * n; ++i) {
+    const auto at = modes[i % n] + (i < n ? 0 : plate.numbering.function.rows());
+    if (dof[at] != pfem::fixed_dof)
+      loads.emplace_back(pfem::is_free(dof[at]) ? dof[at] : n_free + pfem::controlled_index(dof[at]), column,
+                         sign[at] * values[i]);
+  }
 }
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {

@@ -35,15 +35,6 @@ Eigen::VectorXd probe_coefficients(Eigen::Index n_cases) {
   return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
 }
 
-formats::Border border(const std::vector<OutlinePiece>& outline) {
-  formats::Border result{Eigen::MatrixXd(std::ssize(outline), 4), Eigen::VectorXi(std::ssize(outline))};
-  for (Eigen::Index i = 0; i < std::ssize(outline); ++i) {
-    result.ends.row(i) << outline[i].from.transpose(), outline[i].to.transpose();
-    result.is_free[i] = outline[i].is_free ? 1 : 0;
-  }
-  return result;
-}
-
 }  // namespace
 
 formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
@@ -74,7 +65,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
   a.tips = plate.tips;
-  a.border = border(outline_of(scene, plate));
+  a.border = outline_of(scene, plate);
   std::set<std::string> supported;
   for (const auto& support : scene.supports)
     for (const rim::Axis axis : support.fix) supported.insert(rim::name_of(axis));
@@ -107,8 +98,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.friction_hole = problem.friction_hole;
   a.friction_bearing = problem.friction_bearing;
   a.T_f = problem.T_f;
-  for (const auto& tie : problem.ties)
-    a.points.push_back({tie.vertex, tie.controlled - unknowns.n_externals, tie.stiffness});
+  a.points = problem.ties;
   return a;
 }
 

@@ -48,7 +48,7 @@ void check_free(const PlateSolution& a, const plate::PlateStiffness& K, const st
                         file, a.unknown.col(function).minCoeff(), function, element));
   }
   for (const auto& tie : K.ties)
-    if (tie.dof == pfem::fixed_dof)
+    if (K.unknowns.dof_of(tie) == pfem::fixed_dof)
       throw FileError(fmt::format("{}:point/vertex: holds {}, which a support fixes, expected a vertex that can move",
                                   file, tie.vertex));
 }
@@ -79,11 +79,7 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
   } catch (const NumericalError& e) {
     throw FileError(fmt::format("{}:mesh: {}; make the file again", file, e.what()));
   }
-  for (const auto& point : a.points) {
-    const int axis = rim::coordinate(K.unknowns.disc_direction[point.disc]);
-    K.ties.push_back(
-        {point.vertex, a.unknown(axis, point.vertex), K.unknowns.controlled_of_disc(point.disc), point.stiffness});
-  }
+  K.ties = a.points;
   check_free(a, K, file);
   return K;
 }

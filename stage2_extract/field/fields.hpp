@@ -44,11 +44,8 @@ class FieldSolver {
   [[nodiscard]] const pfem::Edges& edges() const { return edges_; }
   [[nodiscard]] const pfem::Numbering& numbering() const { return stiffness_.numbering; }
   [[nodiscard]] const Eigen::Matrix3d& elasticity(int element) const;
-  /// Condenses functions of an element's coefficients at the degree of the factor.
-  /// @param weights Shape (2 n_modes, r).
-  [[nodiscard]] plate::CondensedFunctions condense(int element, const Eigen::MatrixXd& weights) const {
-    return plate::PlateStates::condense(*factor_, element, weights);
-  }
+  /// The factor at the degree that was chosen.
+  [[nodiscard]] const plate::PlateFactor& factor() const { return *factor_; }
 
  private:
   const formats::PlateSolution& plate_;

@@ -114,10 +114,10 @@ std::vector<program::Warning> crack_warnings(const JointModel& joint, const std:
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {
     const PlateModel& plate = joint.plates[i];
     for (Index step = 0; step < std::ssize(states); ++step)
-      for (Index t = 0; t < std::ssize(plate.cracks.tip); ++t) {
+      for (Index t = 0; t < std::ssize(plate.cracks.tips); ++t) {
         const double K = states[step].plates[i].cracks.K_I[t];
         if (!(-K > errors[i].K_I(step, t))) continue;
-        const std::string name = plate.name + ":" + plate.cracks.tip[t];
+        const std::string name = plate.name + ":" + plate.cracks.tips[t].id;
         auto& worst = closing[name];
         if (-K > worst.first)
           worst = {-K, fmt::format("increment {}, with K_I = {:.6g} {}", step + 1, K, unit(joint.units, -1.5, 1))};

@@ -212,9 +212,9 @@ std::string crack_table(const formats::JointResult& result, const Units& units, 
               {{"crack", "length", "K_I", "+-", "K_II", "+-"}, {"", length, intensity, "", intensity}});
   const auto error = [](double value) { return std::isfinite(value) ? Table::Cell(value) : "inf"; };
   for (const auto& plate : result.plates)
-    for (Index t = 0; t < std::ssize(plate.tips.tip); ++t) {
+    for (Index t = 0; t < std::ssize(plate.tips); ++t) {
       const auto at = [&](const char* quantity) { return plate.columns[quantity](step, t); };
-      table.row({plate.name + ":" + plate.tips.tip[t], plate.tips.length[t], at("crack/K_I"),
+      table.row({plate.name + ":" + plate.tips[t].id, plate.tips[t].length, at("crack/K_I"),
                  error(at("crack/K_I_error")), at("crack/K_II"), error(at("crack/K_II_error"))});
     }
   return table.text();

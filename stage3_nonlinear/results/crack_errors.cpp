@@ -48,7 +48,7 @@ VectorXd errors_of(const std::vector<const CrackState*>& sequence, VectorXd Crac
 
 CrackErrorEstimate::CrackErrorEstimate(const JointScene& scene, const JointModel& joint)
     : tolerance_(scene.solver.tolerance) {
-  if (std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tip.empty(); })) return;
+  if (std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tips.empty(); })) return;
   for (int p = joint.p - 1; p >= joint.p - 2 && has_degree(joint, p); --p) below_.emplace_back(scene, p);
 }
 
@@ -56,7 +56,7 @@ std::vector<CrackErrors> CrackErrorEstimate::of(const JointModel& joint, std::si
                                                 const std::vector<JointState>& states, const PathOptions& options) {
   std::vector<CrackErrors> errors(joint.plates.size());
   const bool has_cracks =
-      std::ranges::any_of(joint.plates, [](const auto& plate) { return !plate.cracks.tip.empty(); });
+      std::ranges::any_of(joint.plates, [](const auto& plate) { return !plate.cracks.tips.empty(); });
   if (!has_cracks || states.empty()) return errors;
   std::vector<std::vector<JointState>> below;  // of the lower degrees, the lowest first
   for (auto& degree : below_) {
@@ -65,7 +65,7 @@ std::vector<CrackErrors> CrackErrorEstimate::of(const JointModel& joint, std::si
     below.insert(below.begin(), std::move(lower));
   }
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    const Index t = std::ssize(joint.plates[i].cracks.tip), n = std::ssize(states);
+    const Index t = std::ssize(joint.plates[i].cracks.tips), n = std::ssize(states);
     errors[i] = {MatrixXd(n, t), MatrixXd(n, t)};
     for (Index step = 0; step < n; ++step) {
       std::vector<const CrackState*> sequence;

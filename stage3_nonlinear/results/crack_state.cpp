@@ -38,7 +38,7 @@ VectorXd part_of_waves_above(const PlateModel& plate, const MatrixXd& K, const V
 }  // namespace
 
 CrackState crack_state(const PlateModel& plate, const VectorXd& coefficients) {
-  if (plate.cracks.tip.empty()) return {};
+  if (plate.cracks.tips.empty()) return {};
   const auto &K_I = plate.cracks.K_I.back(), &K_II = plate.cracks.K_II.back();
   CrackState state{K_I * coefficients, K_II * coefficients, part_of_waves_above(plate, K_I, coefficients),
                    part_of_waves_above(plate, K_II, coefficients)};

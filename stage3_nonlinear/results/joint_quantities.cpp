@@ -159,7 +159,7 @@ formats::PlateHistory things_of(const PlateModel& plate) {
   a.friction_hole = plate.friction_hole;
   a.friction_bearing = plate.friction_bearing;
   a.border = plate.border;
-  a.tips = {plate.cracks.tip, plate.cracks.at, plate.cracks.length};
+  a.tips = plate.cracks.tips;
   if (plate.stress_level) a.holes = holes_of(plate.stresses);
   a.rows = row_list(disc_rows(plate));
   return a;

@@ -30,10 +30,8 @@ VectorXd room_around(const PlateModel& plate) {
   VectorXd room = VectorXd::Constant(r, infinite);
   for (Index i = 0; i < r; ++i) {
     const Vector2d center = a.rim_center.row(i);
-    for (Index j = 0; j < plate.border.ends.rows(); ++j) {
-      const Vector2d from = plate.border.ends.row(j).head<2>(), to = plate.border.ends.row(j).tail<2>();
+    for (const auto& [from, to, is_free] : plate.border)
       room[i] = std::min(room[i], distance_to(from - center, to - center, a.rim_radius[i]));
-    }
     for (Index j = 0; j < r; ++j)
       if (j != i) room[i] = std::min(room[i], (a.rim_center.row(j).transpose() - center).norm() - a.rim_radius[j]);
   }

@@ -214,7 +214,7 @@ class Collector {
                needs_border = kind == CheckKind::shear_out ||
                               (kind == CheckKind::bearing && !check_->allowable.edge_ratio.empty());
     if ((kind == CheckKind::bearing || kind == CheckKind::shear_out) && !has_fastener) return;
-    if (needs_border && !check_->edge_distance && plate.border.is_free.size() == 0)
+    if (needs_border && !check_->edge_distance && plate.border.empty())
       fail(fmt::format("the edge distance of {} is not known, since its matrices have no border", name),
            "\"edge_distance\" in the check, or matrices of this version");
     const HoleSections sections(s, rim, &plate.border);

@@ -55,10 +55,9 @@ double distance_to_border(const formats::Border& border, const Eigen::Vector2d& 
   if (direction.norm() == 0) return nearest;
   const Eigen::Vector2d along = direction.normalized();
   constexpr double touch = 1e-9;
-  for (Index i = 0; i < border.is_free.size(); ++i) {
-    if (border.is_free[i] == 0 && !held_too) continue;
-    const Eigen::Vector2d a = border.ends.row(i).head<2>().transpose() - from;
-    const Eigen::Vector2d side = border.ends.row(i).tail<2>().transpose() - from - a;
+  for (const auto& piece : border) {
+    if (piece.is_free == 0 && !held_too) continue;
+    const Eigen::Vector2d a = piece.from - from, side = piece.to - from - a;
     const double area = along.x() * side.y() - along.y() * side.x();
     if (std::abs(area) < touch * side.norm()) continue;
     const double s = (a.x() * along.y() - a.y() * along.x()) / area, r = (a.x() * side.y() - a.y() * side.x()) / area;

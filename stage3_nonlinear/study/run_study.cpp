@@ -194,7 +194,7 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
                     "matrices of stage2_extract without --loads-only, at their highest degree",
                     study.scene.file, joint.p));
   if (study.scene.outputs.contains("cracks") &&
-      std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tip.empty(); }))
+      std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tips.empty(); }))
     throw InputError(
         fmt::format("{}: /outputs: \"cracks\", but no plate has cracks; allowed: at least one plate with \"cracks\" in "
                     "its PLATE.json",

@@ -34,7 +34,7 @@ Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh)
     const auto all = pfem::element_dofs(a.numbering, unknowns.dofs, element);
     add_matrix(all, a.elements.stiffness[a.elements.congruent.class_of[element]], mesh.mesh.thickness[element]);
     for (const auto& [of_element, terms] : a.elements.classes[a.elements.class_of[element]].rims) {
-      const auto at = pfem::element_dofs(a.numbering, unknowns.dofs, element, terms.modes);
+      const auto at = dofs_of(all, terms.modes);
       const int hole = a.elements.holes[element][of_element];
       const int disc = unknowns.first_disc[hole], n_directions = unknowns.first_disc[hole + 1] - disc;
       const double scale = a.elements.scale[element];
@@ -63,9 +63,8 @@ Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh)
     }
   }
   for (const auto& tie : a.ties) {
-    const int disc = pfem::controlled_dof(tie.controlled);
-    for (const auto& [i, j, sign] :
-         {std::tuple(tie.dof, tie.dof, 1), {disc, disc, 1}, {tie.dof, disc, -1}, {disc, tie.dof, -1}})
+    const int dof = unknowns.dof_of(tie), disc = pfem::controlled_dof(unknowns.controlled_of_disc(tie.disc));
+    for (const auto& [i, j, sign] : {std::tuple(dof, dof, 1), {disc, disc, 1}, {dof, disc, -1}, {disc, dof, -1}})
       add_pair(i, j, sign * tie.stiffness);
   }
   a.K_fc.resize(n, nc);

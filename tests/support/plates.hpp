@@ -21,6 +21,13 @@ struct Problem : stage1::PlateProblem {
 };
 [[nodiscard]] Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh);
 
+/// Those of some modes among the degrees of freedom of an element.
+[[nodiscard]] inline pfem::ElementDofs dofs_of(const pfem::ElementDofs& all, std::vector<int> modes) {
+  const auto n_modes = static_cast<int>(all.dof.size() / 2);
+  for (std::size_t i = 0, n = modes.size(); i < n; ++i) modes.push_back(n_modes + modes[i]);
+  return {all.dof(modes), all.sign(modes)};
+}
+
 /// A scene with its mesh and matrices, as stage 1 has them before solving.
 struct Plate {
   stage1::PlateScene scene;

@@ -89,7 +89,7 @@ void RimStress::add_side(const FieldSolver& solver, int hole, const pfem::Side& 
     const Eigen::Vector3d c = (to_global.transpose() * compliance * to_global).row(1);
     part.hoop.col(i) << -c[0] / c[1], 1 / c[1], -c[2] / c[1];
   }
-  part.u_n_and_hoop = solver.condense(side.element, weights);
+  part.u_n_and_hoop = solver.factor().condense_functions(side.element, weights);
   sides_.push_back(std::move(part));
 }
 

@@ -6,6 +6,7 @@
 #include "common/count.hpp"
 #include "common/pfem/element.hpp"
 #include "common/plate/springs.hpp"
+#include "tests/support/plates.hpp"
 
 namespace fastjoint::test {
 
@@ -16,7 +17,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
   const auto& numbering = problem.numbering;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int element, const std::vector<int>& modes, const Eigen::MatrixXd& K) {
-    const auto [dof, sign] = pfem::element_dofs(numbering, problem.unknowns.dofs, element, modes);
+    const auto [dof, sign] = dofs_of(pfem::element_dofs(numbering, problem.unknowns.dofs, element), modes);
     for (Eigen::Index i = 0; i < dof.size(); ++i)
       for (Eigen::Index j = 0; j < dof.size(); ++j)
         if (pfem::is_free(dof[i]) && pfem::is_free(dof[j]))
@@ -39,7 +40,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
     }
   }
   for (const auto& tie : problem.ties)
-    if (pfem::is_free(tie.dof)) entries.emplace_back(tie.dof, tie.dof, tie.stiffness);
+    if (const int dof = problem.unknowns.dof_of(tie); pfem::is_free(dof)) entries.emplace_back(dof, dof, tie.stiffness);
   const int n = problem.unknowns.n_free.back();
   Sparse K(n, n);
   K.setFromTriplets(entries.begin(), entries.end());

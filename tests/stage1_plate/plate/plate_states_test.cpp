@@ -83,7 +83,7 @@ TEST(PlateStates, FunctionsCondensedGiveWhatTheyGiveOfCoefficients) {
     const plate::PlateStates states(K, border, a_few(problem.unknowns.n_free[6], 3));
     for (int element = 0; element < plate.mesh.mesh.n_elements(); ++element) {
       const Eigen::MatrixXd C = states.coefficients(element), weights = Eigen::MatrixXd::Random(C.rows(), 2);
-      const Eigen::MatrixXd values = states.values(plate::PlateStates::condense(K, element, weights));
+      const Eigen::MatrixXd values = states.values(K.condense_functions(element, weights));
       EXPECT_LT((values - C.transpose() * weights).norm(), 1e-11 * (C.norm() + values.norm())) << name << element;
     }
   }

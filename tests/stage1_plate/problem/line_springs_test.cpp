@@ -51,8 +51,8 @@ TEST(LineSprings, DiscsComeAfterThoseOfHoles) {
   EXPECT_EQ(unknowns.disc_hole, (std::vector<std::string>{"a", "a", "p", "p", "q", "q"}));
   using enum rim::Axis;
   EXPECT_EQ(unknowns.disc_direction, (std::vector{x, y, x, y, x, y}));
-  EXPECT_EQ(plate.problem.ties[0].controlled, unknowns.controlled_of_disc(2));
-  EXPECT_EQ(plate.problem.ties[2].controlled, unknowns.controlled_of_disc(4));
+  EXPECT_EQ(plate.problem.ties[0].disc, 2);
+  EXPECT_EQ(plate.problem.ties[2].disc, 4);
 }
 
 TEST(LineSprings, AControlledVertexCouplesDiscAndExternal) {
