@@ -22,12 +22,14 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
   a.plate_digest = plate.header.digest;
   a.disc_modulus = disc_modulus(plate);
   const auto edges = pfem::find_edges(plate.mesh);
+  const auto bearing_of = [&](const std::string& hole, const rim::SignedAxis& side) {
+    return rim::bearing(plate.mesh, edges, plate.hole_rim[index_of(plate.hole_id, hole)], rim::unit_vector(side));
+  };
   a.friction_unit_force = a.friction_resultant = a.friction_resultant_across =
       Eigen::VectorXd::Zero(a.n_friction_cases());
   for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
-    const auto& rim = plate.hole_rim[index_of(plate.hole_id, a.friction_hole[j])];
     const rim::SignedAxis side = rim::signed_axis_named(a.friction_bearing[j]);
-    const auto bearing = rim::bearing(plate.mesh, edges, rim, rim::unit_vector(side));
+    const auto bearing = bearing_of(a.friction_hole[j], side);
     a.friction_unit_force[j] = bearing.unit_force;
     a.friction_resultant[j] = side.sign * bearing.resultant;
     a.friction_resultant_across[j] = bearing.resultant_across;
@@ -35,9 +37,8 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
   a.traction_resultant_across = a.traction_unit_force = Eigen::VectorXd::Zero(a.n_tractions());
   for (Eigen::Index j = 0; j < a.n_tractions(); ++j) {
     if (plate.traction_hole[j].empty()) continue;  // uniform on an edge
-    const auto& rim = plate.hole_rim[index_of(plate.hole_id, plate.traction_hole[j])];
     const rim::SignedAxis side = rim::signed_axis_named(a.traction_bearing[j]);
-    const auto bearing = rim::bearing(plate.mesh, edges, rim, rim::unit_vector(side));
+    const auto bearing = bearing_of(plate.traction_hole[j], side);
     a.traction_unit_force[j] = bearing.unit_force;
     a.traction_resultant_across[j] = side.sign * bearing.force_across / bearing.unit_force;  // per force along + axis
   }

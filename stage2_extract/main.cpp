@@ -91,19 +91,6 @@ void require_memory(const std::string& file, double need) {
   program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes");
 }
 
-/// Bytes to read a plate, with a copy of the file's image, and to extract matrices for loads only.
-double reading_need(double file_size) {
-  constexpr double copies = 1.9;
-  return copies * file_size;
-}
-
-/// Bytes to extract all matrices of a plate, which are about as large as its file and copied in the file's order for
-/// writing.
-double extraction_need(double file_size) {
-  constexpr double copies = 2.15;
-  return copies * file_size;
-}
-
 /// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file twice, with
 /// ten numbers of up to 16 characters and an index per node.
 double field_need(const stage2::FieldSolver& solver, double file_size) {
@@ -122,11 +109,13 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
     return none ? 0 : double(bytes);
   };
   const double size = size_of(arguments.input);
-  require_memory(arguments.input, reading_need(size));
+  constexpr double copies_to_read = 1.9;      // with one of the file's image, and to extract matrices for loads only
+  constexpr double copies_to_extract = 2.15;  // all matrices are about as large as the file, and copied in its order
+  require_memory(arguments.input, copies_to_read * size);
   auto plate = formats::read_plate_solution(arguments.input);
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
   if (!arguments.flag("--field")) {
-    if (!arguments.flag("--loads-only")) require_memory(arguments.input, extraction_need(size));
+    if (!arguments.flag("--loads-only")) require_memory(arguments.input, copies_to_extract * size);
     return write_matrices(arguments, std::move(plate), timings);
   }
   timings.phase("integrate");

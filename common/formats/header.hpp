@@ -10,7 +10,6 @@
 
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
-#include "common/pfem/crack_tip.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/rim/elastic_disk.hpp"

@@ -33,14 +33,11 @@ const h5::Format result_format{"joint-result", 1, 17};
 
 /// Reads the columns of a field. Files before version 1.13 do not have the free parts.
 void read_columns(h5::Reader& file, const std::string& group, PlateHistory& a, Eigen::Index steps, const Units& units) {
-  Eigen::Index n_waves = 0;
-  for (const auto& rim : a.waves) n_waves += rim.size();
-  const Eigen::Index e = std::ssize(a.external_id), m = std::ssize(a.disc_hole), q = std::ssize(a.traction_id);
+  const Eigen::Index e = a.n_externals(), m = a.n_discs(), q = a.n_tractions();
   for (const auto& [quantity, of, n] :
        {std::tuple(&De, Of::external, e), std::tuple(&free_De, Of::external, e), std::tuple(&D, Of::disc, m),
-        std::tuple(&free_D, Of::disc, m), std::tuple(&wave_amount, Of::wave, n_waves),
-        std::tuple(&Lambda, Of::friction_case, Eigen::Index(std::ssize(a.friction_hole))),
-        std::tuple(&traction_force, Of::traction, q)}) {
+        std::tuple(&free_D, Of::disc, m), std::tuple(&wave_amount, Of::wave, a.n_waves()),
+        std::tuple(&Lambda, Of::friction_case, a.n_friction_cases()), std::tuple(&traction_force, Of::traction, q)}) {
     columns::Column column{*quantity, of, n, {}, Eigen::MatrixXd::Zero(steps, n)};
     if ((quantity != &free_D && quantity != &free_De) || file.has(group + quantity->path))
       file(group + quantity->path, column.rows, {steps, n}, unit_of(quantity->dimension, units), quantity->meaning);

@@ -44,20 +44,14 @@ struct RowList {
   Eigen::VectorXi holes{};               ///< (w) number of holes
 };
 
-/// One plate of a joint: its things, and their quantities at every increment.
-struct PlateHistory {
+/// One plate of a joint: its things, and their quantities at every increment. Of the unit cases it has the names, the
+/// arms of moments, the border, and the rims in contact with their waves (g).
+struct PlateHistory : UnitCases {
   std::string name;
-  std::vector<std::string> disc_hole, disc_direction, external_id, traction_id;
-  std::vector<std::string> traction_bearing{};  ///< (q) as in UnitCases
-  std::vector<double> traction_arm{};           ///< (q) as in UnitCases
-  std::vector<ContactRim> contact{};            ///< (g)
-  std::vector<WaveRim> waves{};                 ///< (g) waves of the rims in contact
-  std::vector<std::string> friction_hole, friction_bearing;
   RimsAtNoLoad at_no_load{};
   HoleList holes{};
   std::vector<pfem::CrackTip> tips{};  ///< (t) without their elements
   RowList rows{};
-  Border border{};
   std::string materials{};                        ///< JSON text of "materials" in its PLATE.json; empty if unknown
   std::string matrices_digest{}, plate_digest{};  ///< digests of its MATRICES.h5 and PLATE.h5; empty if unknown
   columns::Columns columns{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/formats/plate_checks.hpp"
+#include "common/formats/plate_solution.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,10 +41,9 @@ void check_mesh(const std::string& file, const pfem::Mesh& mesh, const pfem::Edg
 void check_rims(const std::string& file, const PlateSolution& a, const pfem::Edges& edges) {
   // Stage 1 gives all arcs of a rim the centre of the first: from each to hole and to nodes were three tolerances.
   constexpr double tolerance = 3 * rim::same_place;
-  const rim::RimFinder find_rim(a.mesh, edges);
   for (int hole = 0; hole < count_of(a.hole_rim); ++hole) {
     const rim::Rim& rim = a.hole_rim[hole];
-    if (!(rim.sides == find_rim(rim.center, rim.radius, tolerance).sides))
+    if (!(rim.sides == rim::find_rim(a.mesh, edges, rim.center, rim.radius, tolerance).sides))
       throw FileError(fmt::format(
           "{}:hole/rim: the sides of hole \"{}\" are not those arcs of the mesh that have its centre and its radius {}",
           file, a.hole_id[hole], rim.radius));

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "common/errors.hpp"
 
 namespace fastjoint::formats {

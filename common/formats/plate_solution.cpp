@@ -7,7 +7,6 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/formats/plate_checks.hpp"
 
 namespace fastjoint::formats {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/formats/header.hpp"
-#include "common/pfem/crack_tip.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/rim/rim.hpp"
 
@@ -73,5 +72,11 @@ struct PlateSolution : UnitCases {
 /// Throws FileError; an existing file at `path` is then kept.
 void write(const std::string& path, const PlateSolution& solution);
 [[nodiscard]] PlateSolution read_plate_solution(const std::string& path);
+
+/// Rejects a PLATE.h5 with inconsistent datasets: elements, rims, plate unknowns, discs and unit cases are used as
+/// indices later, so each must occur once and in the order of stage 1.
+///
+/// @param file Path of the file. Throws FileError with the dataset, what was found and what was expected.
+void check_consistent(const std::string& file, const PlateSolution& plate);
 
 }  // namespace fastjoint::formats

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <utility>
 
 #include "common/errors.hpp"
 #include "common/input/value.hpp"

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/pfem/crack_tip.hpp"
 #include "common/plate/plate_factor.hpp"
 
 namespace fastjoint::plate {

@@ -19,6 +19,7 @@
 #include "common/linalg/processor.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
+#include "common/program/warning.hpp"
 
 namespace fastjoint::program {
 namespace {
@@ -215,6 +216,10 @@ std::string message_line(const std::string& message) {
   while (from > 0 && is_inside(from)) --from;
   while (to < text.size() && is_inside(to)) ++to;
   return text.substr(0, from) + " ... " + text.substr(to);
+}
+
+void warn(std::ostream& log, const std::string& program, const Warning& warning) {
+  log << fmt::format("{}: warning [{}]: {}\n", program, warning.code, message_line(warning.text));
 }
 
 std::string listed(std::vector<std::string> names, std::size_t most) {

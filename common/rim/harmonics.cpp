@@ -72,6 +72,13 @@ class Multiples {
   std::vector<std::complex<double>> turns_;
 };
 
+/// Values of n distributions at an angle.
+template <class WaveOf>
+Eigen::VectorXd values_at(const Harmonics& a, int n, WaveOf wave_of, double angle) {
+  const Multiples all(phase_rate(a) * (angle - a.start), max_multiple(a));
+  return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index k) { return all.at(wave_of(a, static_cast<int>(k))); });
+}
+
 /// One step of Horner's rule: adds to a complex number x + i y, then rotates it by the angle with cosine c and sine s.
 void turn(double& x, double& y, double c, double s, double more_x, double more_y) {
   const double sum_x = x + more_x, sum_y = y + more_y;
@@ -159,11 +166,7 @@ Eigen::MatrixXd Harmonics::shears_of_whole() const {
   return is_whole() ? Eigen::MatrixXd::Identity(size(), size()) : of_whole(*this, n_shears(), shear_wave);
 }
 
-Eigen::VectorXd Harmonics::at(double angle) const {
-  const Multiples all(phase_rate(*this) * (angle - start), max_multiple(*this));
-  return Eigen::VectorXd::NullaryExpr(
-      size(), [&](Eigen::Index k) { return all.at(pressure_wave(*this, static_cast<int>(k))); });
-}
+Eigen::VectorXd Harmonics::at(double angle) const { return values_at(*this, size(), pressure_wave, angle); }
 
 std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& coefficients, double angle) const {
   const double phase = phase_rate(*this) * (angle - start);
@@ -187,11 +190,7 @@ double Harmonics::shear_sum_at(const Eigen::VectorXd& coefficients, double angle
   return std::numbers::sqrt2 * re;
 }
 
-Eigen::VectorXd Harmonics::shears_at(double angle) const {
-  const Multiples all(phase_rate(*this) * (angle - start), max_multiple(*this));
-  return Eigen::VectorXd::NullaryExpr(n_shears(),
-                                      [&](Eigen::Index k) { return all.at(shear_wave(*this, static_cast<int>(k))); });
-}
+Eigen::VectorXd Harmonics::shears_at(double angle) const { return values_at(*this, n_shears(), shear_wave, angle); }
 
 Eigen::VectorXd Harmonics::push(int axis) const {
   Eigen::VectorXd means = Eigen::VectorXd::Zero(size());

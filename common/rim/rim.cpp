@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::rim {
@@ -17,22 +18,14 @@ bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector
 
 }  // namespace
 
-RimFinder::RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges) : mesh_(mesh) {
-  for (int edge = 0; edge < edges.size(); ++edge) {
-    const int arc = edges.arc[edge];
-    if (arc < 0 || !edges.is_border(edge)) continue;
-    const Eigen::Vector2d& center = mesh.arcs[arc].center;
-    arcs_[center.x()][center.y()].emplace_back(edges.sides[edge].front(), arc);
-  }
-}
-
-Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius, double tolerance) const {
+Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center, double radius,
+             double tolerance) {
   Rim rim{center, radius, {}};
-  const Eigen::Array2d low = center.array() - tolerance * radius, high = center.array() + tolerance * radius;
-  for (auto x = arcs_.lower_bound(low.x()); x != arcs_.end() && x->first <= high.x(); ++x)
-    for (auto y = x->second.lower_bound(low.y()); y != x->second.end() && y->first <= high.y(); ++y)
-      for (const auto& [side, arc] : y->second)
-        if (on_circle(mesh_, mesh_.arcs[arc], center, radius, tolerance)) rim.sides.push_back(side);
+  for (int i = 0; i < count_of(mesh.arcs); ++i) {
+    if (!on_circle(mesh, mesh.arcs[i], center, radius, tolerance)) continue;
+    const int edge = edges.between(mesh.arcs[i].a, mesh.arcs[i].b);
+    if (edge >= 0 && edges.arc[edge] == i && edges.is_border(edge)) rim.sides.push_back(edges.sides[edge].front());
+  }
   std::ranges::sort(rim.sides);
   return rim;
 }
@@ -63,13 +56,6 @@ std::vector<AngleRange> open_pieces(const std::vector<SideAngles>& sides) {
     pieces.push_back(piece);
   }
   return pieces;
-}
-
-double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim) {
-  double sum = 0;
-  for (const auto& side : rim.sides)
-    sum += std::abs(pfem::edge_curve(mesh, edges, side.element, side.local_edge).sweep());
-  return sum;
 }
 
 pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,

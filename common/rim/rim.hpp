@@ -3,10 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/pfem/mesh.hpp"
@@ -27,20 +24,10 @@ struct Rim {
   std::vector<pfem::Side> sides;
 };
 
-/// Index of the arcs on the boundary of a mesh by their centres, to find the sides of a rim without a search of all
-/// arcs.
-class RimFinder {
- public:
-  /// The mesh must outlive this.
-  RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges);
-  /// Finds the sides of elements that lie on a circle, in the order of the elements.
-  /// @param tolerance Of their centres and radii, relative to the radius.
-  [[nodiscard]] Rim operator()(const Eigen::Vector2d& center, double radius, double tolerance = same_place) const;
-
- private:
-  const pfem::Mesh& mesh_;
-  std::map<double, std::map<double, std::vector<std::pair<pfem::Side, int>>>> arcs_;  ///< by x and y of the centre
-};
+/// Finds the sides of elements on the boundary that lie on a circle, in the order of the elements.
+/// @param tolerance Of their centres and radii, relative to the radius.
+[[nodiscard]] Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center,
+                           double radius, double tolerance = same_place);
 
 /// Angles of a side of a rim, radians.
 struct SideAngles {
@@ -54,9 +41,6 @@ struct SideAngles {
 
 /// The connected pieces of a rim that have ends; none for a closed rim.
 [[nodiscard]] std::vector<AngleRange> open_pieces(const std::vector<SideAngles>& sides);
-
-/// Total angle of the sides of a rim, radians.
-[[nodiscard]] double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
 
 /// Quadrature on one side of a rim. Its pieces end where `ranges` end and at the lines through the centre along x and
 /// y, where the tractions of bearing along +-x and +-y, or their slopes, jump.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/crack_mesh.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/crack_places.hpp"
+#include "stage1_plate/mesh/grid_cracks.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "common/count.hpp"
-#include "stage1_plate/mesh/grid_cells.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

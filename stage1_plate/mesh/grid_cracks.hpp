@@ -2,14 +2,45 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <string>
 #include <vector>
 
-#include "stage1_plate/mesh/crack_mesh.hpp"
-#include "stage1_plate/mesh/crack_places.hpp"
 #include "stage1_plate/mesh/grid_cells.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 namespace fastjoint::stage1 {
+
+/// Distance of places that count as one, relative to the plate's size.
+inline constexpr double same = 1e-9;
+
+/// A tip of a crack in a grid.
+struct TipPlace {
+  Eigen::Vector2d at;
+  double size;  ///< of the elements around it: the distance to the nearest hole, border or crack, or the crack's length
+};
+
+/// The tips of each crack, 0 to 2. Throws InputError for a crack that leaves the plate or meets another, and for a tip
+/// in a hole or too near to what is around it.
+[[nodiscard]] std::vector<std::vector<TipPlace>> place_tips(const PlateScene& scene, const GridGeometry& grid);
+
+/// A grid whose lines have been moved, and what has been done, "x = 86 to 86.5, through a tip".
+struct MovedGrid {
+  GridGeometry grid;
+  std::vector<std::string> moves{};
+};
+
+/// Moves cell lines that pass a tip more closely than elements around it are large: through the tip, or so that a
+/// corner of a hole's cell lies on the ray of its crack, since slivers between the two would spoil the stress intensity
+/// factors.
+///
+/// Throws InputError where a line cannot move: it is the border, the thickness or the material changes there, a hole is
+/// in its way, or it is near two tips.
+[[nodiscard]] MovedGrid lines_through_tips(const PlateScene& scene, const GridGeometry& grid,
+                                           const std::vector<std::vector<TipPlace>>& tips);
+
+/// Throws InputError for the place of a crack in the file.
+[[noreturn]] void reject_crack(const PlateScene& scene, int crack, const std::string& found,
+                               const std::string& allowed);
 
 /// A tip inside the cell of a hole, on a ray from the hole's centre.
 struct CellTip {

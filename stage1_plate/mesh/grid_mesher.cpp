@@ -7,7 +7,6 @@
 #include <map>
 
 #include "common/count.hpp"
-#include "stage1_plate/mesh/grid_cells.hpp"
 #include "stage1_plate/mesh/grid_cracks.hpp"
 
 namespace fastjoint::stage1 {

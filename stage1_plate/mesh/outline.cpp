@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/outline.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

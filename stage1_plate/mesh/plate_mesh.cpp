@@ -57,13 +57,13 @@ bool is_cracked(const PlateMesh& plate, const rim::Rim& rim) {
 }
 
 void find_rims(const PlateScene& scene, PlateMesh& plate) {
-  const rim::RimFinder find_rim(plate.mesh, plate.edges);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const Hole& hole = scene.holes[i];
     const std::string place = fmt::format("/holes/{}", i);
-    const auto rim = find_rim(hole.center, hole.radius);
+    const auto rim = rim::find_rim(plate.mesh, plate.edges, hole.center, hole.radius);
     share_center(rim, plate);
-    const double covered = rim::covered_angle(plate.mesh, plate.edges, rim);
+    double covered = 0;
+    for (const auto& side : rim::side_angles(plate.mesh, plate.edges, rim)) covered += std::abs(side.sweep);
     if (std::ranges::none_of(std::array{4, 2, 1},
                              [&](int part) { return std::abs(covered - rim::full_turn / part) < rim::same_angle; }))
       reject(scene, place,

@@ -3,9 +3,9 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "common/pfem/crack_tip.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/rim/rim.hpp"
 #include "stage1_plate/scene/scene.hpp"
@@ -42,5 +42,21 @@ struct PlateMesh {
 /// set is inside the plate, or if the edges of a section are not straight, not on one line across the section's
 /// direction, or not beyond the rim on that side of the hole.
 [[nodiscard]] PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry);
+
+/// A crack along edges of a mesh that is not yet open.
+struct CrackPath {
+  int crack;                               ///< index into PlateScene::cracks
+  std::string pointer;                     ///< its place in the file, for messages
+  std::vector<std::pair<int, int>> edges;  ///< nodes of each edge, in any order
+};
+
+/// Opens cracks: doubles the nodes along each path but its tips, and cuts the elements around a tip into layers whose
+/// sizes fall by 0.2 from one to the next. Sides of sets and sections follow. Adds the tips to the plate.
+/// Throws InputError if a path is not one connected line without branches, if one of its edges lies on the border, or
+/// if the sheet around a tip has several thicknesses or materials, or an anisotropic one.
+void open_cracks(const PlateScene& scene, const std::vector<CrackPath>& paths, PlateMesh& plate);
+
+/// The outline of the sheet without holes and cracks, arcs as chords.
+[[nodiscard]] std::vector<pfem::OutlinePiece> outline_of(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

@@ -6,7 +6,6 @@
 
 #include "common/count.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
-#include "stage1_plate/problem/wave_orders.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/problem/wave_orders.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -9,9 +7,12 @@
 
 #include "common/count.hpp"
 #include "common/rim/rim_compliance.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
+
+constexpr int min_order = 4;
 
 /// Sides where the field may lose smoothness: edges of the plate, and edges between elements of different thickness or
 /// material.

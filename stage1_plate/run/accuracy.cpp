@@ -9,7 +9,6 @@
 
 #include "common/errors.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
-#include "stage1_plate/run/hoop_error.hpp"
 #include "stage1_plate/run/solve.hpp"
 
 namespace fastjoint::stage1 {

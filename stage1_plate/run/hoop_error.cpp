@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/run/hoop_error.hpp"
+#include "stage1_plate/run/accuracy.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/run/places.hpp"
+#include "stage1_plate/run/solve.hpp"
 
 #include <algorithm>
 #include <limits>

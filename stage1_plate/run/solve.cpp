@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
 #include <set>
 
@@ -17,10 +16,7 @@
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/progress.hpp"
-#include "stage1_plate/mesh/outline.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
-#include "stage1_plate/problem/wave_orders.hpp"
-#include "stage1_plate/run/places.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -80,4 +80,7 @@ struct SolvedPlate {
 /// The summary on stdout: size and degrees. @param file Path of the written file.
 [[nodiscard]] std::string summary(const SolvedPlate& plate, const std::string& file);
 
+/// Places at which discs, externals and supports act on the plate.
+[[nodiscard]] formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem);
+
 }  // namespace fastjoint::stage1

@@ -16,14 +16,14 @@ namespace {
 using input::Value;
 
 /// Returns a reader of a material's name as its index.
-auto index_among(const Materials& materials) {
-  return [&names = materials.name](const Value& value) { return index_of(names, value.choice(names)); };
+auto index_among(const std::vector<Material>& materials) {
+  return [&](const Value& value) { return read_id(value, materials); };
 }
 
 /// Finds the material's name, which may be omitted if there is only one material.
-std::optional<Value> find_material(const Value& geometry, const Materials& materials) {
+std::optional<Value> find_material(const Value& geometry, const std::vector<Material>& materials) {
   auto value = geometry.find("material");
-  if (!value && materials.name.size() > 1) return geometry.at("material");
+  if (!value && materials.size() > 1) return geometry.at("material");
   return value;
 }
 
@@ -61,7 +61,7 @@ void read_cells(const Value& value, Table& table, const Read& read) {
 
 double read_thickness(const Value& value) { return read_quantity(value); }
 
-GridGeometry read_grid(const Value& value, const Materials& materials) {
+GridGeometry read_grid(const Value& value, const std::vector<Material>& materials) {
   value.only({"x", "y", "thickness", "material"});
   GridGeometry grid{read_lines(value.at("x")), read_lines(value.at("y")), {}, {}};
   const int rows = count_of(grid.y) - 1, cols = count_of(grid.x) - 1;
@@ -112,7 +112,7 @@ Eigen::Vector4i read_quad(const Value& value, int n_nodes) {
   return quad;
 }
 
-MeshGeometry read_mesh(const Value& value, const Materials& materials) {
+MeshGeometry read_mesh(const Value& value, const std::vector<Material>& materials) {
   value.only({"nodes", "quads", "arcs", "thickness", "material", "edges", "sections"});
   MeshGeometry geometry;
   pfem::Mesh& mesh = geometry.mesh;
@@ -153,7 +153,7 @@ rim::SignedAxis read_side(const Value& value, const PlateScene& scene) {
 
 }  // namespace
 
-std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const Materials& materials) {
+std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const std::vector<Material>& materials) {
   value.only({"grid", "mesh"});
   const auto grid = value.find("grid");
   const auto mesh = value.find("mesh");

@@ -48,23 +48,23 @@ std::optional<Eigen::Matrix2d> expansion_of(const std::vector<Ply>& plies, const
 
 }  // namespace
 
-Laminate read_laminate(const Value& value, pfem::Analysis analysis) {
+Material read_laminate(const std::string& id, const Value& value, pfem::Analysis analysis) {
   value.only({"plies"});
   if (analysis == pfem::Analysis::plane_strain)
     value.at("plies").fail("a laminate in plane strain", "only in plane stress");
   const auto plies = read_plies(value.at("plies"));
-  Laminate laminate{};
+  Material laminate{id, {}, {}};
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(), coupling = stiffness;  // A and B of laminate theory
-  for (const Ply& ply : plies) laminate.thickness += ply.thickness;
-  double z = -laminate.thickness / 2;
+  for (const Ply& ply : plies) laminate.stack += ply.thickness;
+  double z = -laminate.stack / 2;
   for (const Ply& ply : plies) {
     stiffness += ply.thickness * ply.elasticity;
     coupling += ply.thickness * (z + ply.thickness / 2) * ply.elasticity;
     z += ply.thickness;
   }
-  laminate.elasticity = stiffness / laminate.thickness;
+  laminate.elasticity = stiffness / laminate.stack;
   laminate.expansion = expansion_of(plies, stiffness);
-  laminate.coupling = coupling.cwiseAbs().maxCoeff() / (stiffness.maxCoeff() * laminate.thickness);
+  laminate.coupling = coupling.cwiseAbs().maxCoeff() / (stiffness.maxCoeff() * laminate.stack);
   return laminate;
 }
 

@@ -33,6 +33,16 @@ Eigen::Matrix3d read_orthotropic(const Value& value, Analysis analysis) {
   return pfem::elasticity(read_constants(value, analysis), angle ? angle->number() * rim::degree : 0, analysis);
 }
 
+Material read_material(const std::string& id, const Value& value, Analysis analysis) {
+  if (value.find("plies")) return read_laminate(id, value, analysis);
+  if (value.find("E") || value.find("nu"))
+    return {id, read_isotropic(value, analysis), read_expansion(value, "alpha", "alpha", 0, analysis)};
+  const auto angle = value.find("angle");
+  const Eigen::Matrix3d elasticity = read_orthotropic(value, analysis);
+  return {id, elasticity,
+          read_expansion(value, "alpha1", "alpha2", angle ? angle->number() * rim::degree : 0, analysis)};
+}
+
 /// Modulus for a disc in plane stress under uniform pressure, u_r = (1 - nu) p r / E: equation (29).
 double plane_stress(double E, double nu, double d) { return 2 / (1 - nu) * E / d; }
 
@@ -110,27 +120,12 @@ Analysis read_analysis(const Value& root) {
   return stress ? Analysis::plane_stress : Analysis::plane_strain;
 }
 
-Materials read_materials(const Value& root) {
+std::vector<Material> read_materials(const Value& root) {
   const Analysis analysis = read_analysis(root);
-  Materials materials;
+  std::vector<Material> materials;
   const Value list = root.at("materials");
-  for (const auto& [name, value] : list.members()) {
-    materials.name.push_back(name);
-    auto& laminate = materials.laminate.emplace_back();
-    if (value.find("plies")) {
-      laminate = read_laminate(value, analysis);
-      materials.elasticity.push_back(laminate->elasticity);
-      materials.expansion.push_back(laminate->expansion);
-      continue;
-    }
-    const bool isotropic = value.find("E") || value.find("nu");
-    materials.elasticity.push_back(isotropic ? read_isotropic(value, analysis) : read_orthotropic(value, analysis));
-    const auto angle = value.find("angle");
-    materials.expansion.push_back(
-        isotropic ? read_expansion(value, "alpha", "alpha", 0, analysis)
-                  : read_expansion(value, "alpha1", "alpha2", angle ? angle->number() * rim::degree : 0, analysis));
-  }
-  if (materials.name.empty()) list.fail("no material", "at least one");
+  for (const auto& [name, value] : list.members()) materials.push_back(read_material(name, value, analysis));
+  if (materials.empty()) list.fail("no material", "at least one");
   return materials;
 }
 

@@ -13,12 +13,14 @@
 
 namespace fastjoint::stage1 {
 
-/// A stack of plies as a membrane.
-struct Laminate {
-  Eigen::Matrix3d elasticity;  ///< mean over the thickness, stress
-  std::optional<Eigen::Matrix2d> expansion;
-  double thickness = 0;  ///< of the stack, length
-  double coupling = 0;   ///< largest entry of B over the largest of A and the thickness; 0 of a symmetric stack
+/// A material of a scene, for its analysis.
+struct Material {
+  std::string id;                            ///< name
+  Eigen::Matrix3d elasticity;                ///< of a laminate the mean over its thickness, stress
+  std::optional<Eigen::Matrix2d> expansion;  ///< strain in x and y per degree, if given
+  double stack = 0;                          ///< thickness of a laminate, length; 0 of another material
+  /// Of a laminate, largest entry of B over the largest of A and the thickness; 0 of a symmetric stack.
+  double coupling = 0;
 };
 
 /// Strain of free expansion per degree along axis 1 and axis 2, turned to x and y; none if it is not given.
@@ -31,20 +33,12 @@ struct Laminate {
 
 /// Reads {"plies": [{constants, "angles", "thickness"}, ...]}, from the bottom of the stack to its top (Jones, section
 /// 4.2).
-[[nodiscard]] Laminate read_laminate(const input::Value& value, pfem::Analysis analysis);
-
-/// Materials in the order of their names.
-struct Materials {
-  std::vector<std::string> name;
-  std::vector<Eigen::Matrix3d> elasticity;                ///< for the scene's analysis, stress
-  std::vector<std::optional<Eigen::Matrix2d>> expansion;  ///< strain in x and y per degree, if given
-  std::vector<std::optional<Laminate>> laminate;
-};
+[[nodiscard]] Material read_laminate(const std::string& id, const input::Value& value, pfem::Analysis analysis);
 
 [[nodiscard]] pfem::Analysis read_analysis(const input::Value& root);
 
-/// Reads "analysis" and "materials" of a scene.
-[[nodiscard]] Materials read_materials(const input::Value& root);
+/// Reads "analysis" and "materials" of a scene, in the order of their names.
+[[nodiscard]] std::vector<Material> read_materials(const input::Value& root);
 
 [[nodiscard]] Eigen::Vector2d read_point(const input::Value& value);
 
@@ -71,7 +65,7 @@ template <class Item>
 
 /// Reads "geometry": {"grid": ...} or {"mesh": ...} without its "sections", which refer to the holes.
 [[nodiscard]] std::variant<GridGeometry, MeshGeometry> read_geometry(const input::Value& value,
-                                                                     const Materials& materials);
+                                                                     const std::vector<Material>& materials);
 
 /// Reads "sections" of an explicit mesh into the scene's geometry; needs its holes and the directions of its discs.
 void read_sections(const input::Value& root, PlateScene& scene);

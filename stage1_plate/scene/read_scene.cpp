@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -68,14 +67,14 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
 }
 
 /// Refuses a thickness of the sheet that is not that of its laminate, and notes laminates that bend as they stretch.
-void check_laminates(const Value& root, const Materials& materials, PlateScene& scene) {
+void check_laminates(const Value& root, const std::vector<Material>& materials, PlateScene& scene) {
   constexpr double same = 1e-6, rounding = 1e-9;
   const auto check = [&](int material, double thickness) {
-    const auto& laminate = materials.laminate[material];
-    if (laminate && std::abs(thickness - laminate->thickness) > same * laminate->thickness)
+    const auto& [id, elasticity, expansion, stack, coupling] = materials[material];
+    if (stack > 0 && std::abs(thickness - stack) > same * stack)
       root.at("geometry")
-          .fail(fmt::format("the thickness {:g} of the material \"{}\"", thickness, materials.name[material]),
-                fmt::format("{:.9g}, the sum of its plies", laminate->thickness));
+          .fail(fmt::format("the thickness {:g} of the material \"{}\"", thickness, id),
+                fmt::format("{:.9g}, the sum of its plies", stack));
   };
   if (const auto* grid = std::get_if<GridGeometry>(&scene.geometry)) {
     for (Eigen::Index i = 0; i < grid->material.size(); ++i)
@@ -84,9 +83,8 @@ void check_laminates(const Value& root, const Materials& materials, PlateScene& 
     const auto& mesh = std::get<MeshGeometry>(scene.geometry).mesh;
     for (int i = 0; i < mesh.n_elements(); ++i) check(mesh.material[i], mesh.thickness[i]);
   }
-  for (std::size_t i = 0; i < materials.name.size(); ++i)
-    if (materials.laminate[i] && materials.laminate[i]->coupling > rounding)
-      scene.coupled_laminates.push_back(materials.name[i]);
+  for (const auto& each : materials)
+    if (each.coupling > rounding) scene.coupled_laminates.push_back(each.id);
 }
 
 /// Ratio of the maximum to the minimum modulus in tension over all directions in the plane.
@@ -236,11 +234,11 @@ PlateScene read_scene(const input::Document& document) {
   scene.text = document.text;
   if (const auto name = root.find("name")) scene.name = name->text();
   scene.units = read_units(root);
-  const Materials materials = read_materials(root);
-  scene.elasticity = materials.elasticity;
-  const auto& expansion = materials.expansion;
-  if (std::ranges::all_of(expansion, [&](const auto& each) { return each == expansion.front(); }))
-    scene.expansion = expansion.front();
+  const auto materials = read_materials(root);
+  for (const auto& each : materials) scene.elasticity.push_back(each.elasticity);
+  const auto& expansion = materials.front().expansion;
+  if (std::ranges::all_of(materials, [&](const auto& each) { return each.expansion == expansion; }))
+    scene.expansion = expansion;
   scene.geometry = read_geometry(root.at("geometry"), materials);
   check_laminates(root, materials, scene);
   std::set<std::string> disc_ids;

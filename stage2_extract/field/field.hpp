@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "common/formats/plate_solution.hpp"
 #include "stage2_extract/field/fields.hpp"

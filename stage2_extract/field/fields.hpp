@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
 #include "common/formats/plate_solution.hpp"
 #include "common/plate/plate_states.hpp"

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/program/program.hpp"
@@ -12,23 +10,7 @@
 namespace fastjoint::stage2 {
 namespace {
 
-using formats::PlateHistory;
 using formats::PlateSolution;
-
-/// @param a PlateSolution or PlateHistory.
-template <class Plate>
-std::vector<std::string> names_of_cases(const Plate& a) {
-  std::vector<std::string> names;
-  names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
-  for (const auto& id : a.external_id) names.push_back("external:" + id);
-  for (int i = 0; i < count_of(a.disc_hole); ++i) names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
-  for (std::size_t rim = 0; rim < a.contact.size(); ++rim)
-    for (int k = 0; k < a.waves[rim].size(); ++k) names.push_back(fmt::format("wave:{}:{}", a.waves[rim].hole, k));
-  for (int i = 0; i < count_of(a.friction_hole); ++i)
-    names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
-  for (const auto& id : a.traction_id) names.push_back("traction:" + id);
-  return names;
-}
 
 int sheet_of_joint(const PlateSolution& plate, const std::string& file, const std::string& result_file,
                    const std::string& name, const formats::JointResult& joint) {
@@ -36,7 +18,7 @@ int sheet_of_joint(const PlateSolution& plate, const std::string& file, const st
   std::vector<std::string> all, fitting;
   for (const auto& sheet : joint.plates) {
     all.push_back(sheet.name);
-    if (names_of_cases(sheet) == cases) fitting.push_back(sheet.name);
+    if (case_names(sheet) == cases) fitting.push_back(sheet.name);
   }
   if (name.empty() && fitting.empty())
     throw InputError(
@@ -49,7 +31,7 @@ int sheet_of_joint(const PlateSolution& plate, const std::string& file, const st
     throw InputError(fmt::format("--plate: '{}' is not a sheet of {}; allowed: {}", name, result_file, listed(all)));
   if (index_of(fitting, all[found]) == count_of(fitting))
     throw InputError(fmt::format("--plate: '{}' of {} is not the sheet of {}: its cases are {}, those of the sheet {}",
-                                 name, result_file, file, listed(names_of_cases(joint.plates[found])), listed(cases)));
+                                 name, result_file, file, listed(case_names(joint.plates[found])), listed(cases)));
   return found;
 }
 
@@ -60,7 +42,17 @@ void take_waves_of_field(PlateSolution& plate) {
     plate.waves[rim].waves = formats::waves_of_field(plate.contact[rim], plate.waves[rim]);
 }
 
-std::vector<std::string> case_names(const PlateSolution& plate) { return names_of_cases(plate); }
+std::vector<std::string> case_names(const formats::UnitCases& a) {
+  std::vector<std::string> names;
+  for (const auto& id : a.external_id) names.push_back("external:" + id);
+  for (int i = 0; i < count_of(a.disc_hole); ++i) names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
+  for (std::size_t rim = 0; rim < a.contact.size(); ++rim)
+    for (int k = 0; k < a.waves[rim].size(); ++k) names.push_back(fmt::format("wave:{}:{}", a.waves[rim].hole, k));
+  for (int i = 0; i < count_of(a.friction_hole); ++i)
+    names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
+  for (const auto& id : a.traction_id) names.push_back("traction:" + id);
+  return names;
+}
 
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 13;

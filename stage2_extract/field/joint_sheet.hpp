@@ -15,7 +15,7 @@ namespace fastjoint::stage2 {
 void take_waves_of_field(formats::PlateSolution& plate);
 
 /// Names of a plate's unit cases: "external:P", "disc:1:x", "wave:2:0", "friction:1:+x", "traction:T"; shape (n_cases).
-[[nodiscard]] std::vector<std::string> case_names(const formats::PlateSolution& plate);
+[[nodiscard]] std::vector<std::string> case_names(const formats::UnitCases& plate);
 
 /// Joins names for a message, at most a dozen.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);

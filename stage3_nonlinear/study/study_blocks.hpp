@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/formats/study_block.hpp"
+#include "common/formats/study.hpp"
 
 namespace fastjoint::stage3 {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/formats/study_result.hpp"
+#include "common/formats/study.hpp"
 #include "stage3_nonlinear/study/study_blocks.hpp"
 #include "stage3_nonlinear/study/study_scene.hpp"
 #include "stage3_nonlinear/study/study_solver.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/formats/study_result.hpp"
+#include "common/formats/study.hpp"
 #include "stage3_nonlinear/study/study_scene.hpp"
 
 namespace fastjoint::stage3 {

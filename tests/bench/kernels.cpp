@@ -47,7 +47,7 @@ void rim_rule(State& state) {
   const auto& edges = plate.mesh.edges;
   const int p = static_cast<int>(state.range(0));
   const auto& hole = plate.scene.holes.front();
-  const auto rim = rim::RimFinder(mesh, edges)(hole.center, hole.radius);
+  const auto rim = rim::find_rim(mesh, edges, hole.center, hole.radius);
   for (auto _ : state)
     for (const auto& side : rim.sides) DoNotOptimize(rim::rim_rule(mesh, edges, side, p));
 }

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "common/errors.hpp"
-#include "common/formats/plate_checks.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "stage1_plate/problem/plate_problem.hpp"
-#include "stage1_plate/run/hoop_error.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/random_sheets.hpp"
 

@@ -101,15 +101,8 @@ class StateOfAJoint : public testing::Test {
  protected:
   static formats::PlateHistory history(const std::string& name, double value) {
     const auto plate = sheet();
-    formats::PlateHistory result{.name = name,
-                                 .disc_hole = plate.disc_hole,
-                                 .disc_direction = plate.disc_direction,
-                                 .external_id = plate.external_id,
-                                 .traction_id = plate.traction_id,
-                                 .traction_bearing = plate.traction_bearing,
-                                 .traction_arm = {0},
-                                 .friction_hole = plate.friction_hole,
-                                 .friction_bearing = plate.friction_bearing};
+    formats::PlateHistory result{plate, name};
+    result.waves.clear();  // of a hole without contact
     const auto add = [&](const columns::Quantity& quantity, Eigen::Index n, double offset) {
       result.columns.put(
           {quantity, {}, n, {}, Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(n, offset, offset + 0.1)});

@@ -1,10 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/formats/study_result.hpp"
+#include "common/formats/study.hpp"
 
 namespace fastjoint::formats {
 namespace {
 
-const h5::Format study_format{"study-result", 1, 2};
+const h5::Format block_format{"study-block", 1, 0}, study_format{"study-result", 1, 2};
+
+template <class File, class Origin>
+void file_datasets(File& file, Origin& a) {
+  file("files/name", a.file, {h5::any}, "1", "files that the joint and the study name, and the polynomial degree");
+  file("files/digest", a.digest, {Eigen::Index(a.file.size())}, "1", "digest of each file; the degree");
+}
+
+template <class File, class Block>
+void block_datasets(File& file, Block& a) {
+  file.attribute("generator", a.origin.generator);
+  file.attribute("joint", a.origin.joint);
+  file.attribute("study", a.origin.study);
+  file.attribute("seed", a.origin.seed);
+  file.attribute("block", a.number);
+  file.attribute("block_size", a.size);
+  file_datasets(file, a.origin);
+  file("status", a.status, {h5::some}, "1",
+       "what became of each sample: 0 solved, 1 refused, 2 not solved, 3 out of balance", h5::integers(0, 3));
+  file("values", a.values, {Eigen::Index(a.status.size()), File::reads ? h5::some : Eigen::Index(a.values.cols())}, "1",
+       "forces, peaks and displacements of each sample, infinite of one that is not solved", h5::infinite_too);
+}
 
 void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   const std::string group = "statistics/" + a.name + "/";
@@ -40,15 +61,26 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
 
 }  // namespace
 
+void write(const std::string& path, const StudyBlock& block) {
+  h5::Writer file(path, block_format);
+  block_datasets(file, block);
+  file.commit();
+}
+
+StudyBlock read_study_block(const std::string& path) {
+  h5::Reader file(path, block_format);
+  StudyBlock block;
+  block_datasets(file, block);
+  return block;
+}
+
 void write(const std::string& path, const StudyResult& a, const std::function<void(h5::Writer&)>& samples) {
   h5::Writer file(path, study_format);
   header(file, a.header);
   file("study", a.origin.study, {}, "1", "JSON text of the study");
   file.attribute("seed", a.origin.seed);
   file.attribute("sampling", a.sampling);
-  file("files/name", a.origin.file, {Eigen::Index(a.origin.file.size())}, "1",
-       "files that the joint and the study name, and the polynomial degree");
-  file("files/digest", a.origin.digest, {Eigen::Index(a.origin.file.size())}, "1", "digest of each file; the degree");
+  file_datasets(file, a.origin);
   const Eigen::Index v = std::ssize(a.variable);
   file("variables/name", a.variable, {v}, "1", "variables of the study");
   file("variables/place", a.place, {v}, "1", "JSON pointers of each into the joint, parted by spaces");
