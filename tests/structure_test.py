@@ -41,7 +41,7 @@ COMMON = {
     "linalg": [""],
     "matrices": [""],
     "pfem": ["", "linalg", "matrices"],
-    "rim": ["matrices", "pfem"],
+    "rim": ["", "matrices", "pfem"],
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
     "columns": ["", "h5"],

@@ -90,7 +90,7 @@ struct Margin {
 };
 
 /// A kind of input numbers by which results are differentiated.
-struct Slopes {
+struct NumberColumns {
   const char* by;                ///< name of the dataset
   const char* meaning;           ///< of the number
   columns::Dimension dimension;  ///< of the number; without one the unit of each is in law_unit
@@ -99,7 +99,7 @@ struct Slopes {
 
 /// Derivatives by numbers of the input; infinite where they do not exist.
 struct SensitivityHistory {
-  std::vector<Slopes> kinds{};
+  std::vector<NumberColumns> kinds{};
   std::vector<std::string> mu_hole{};                             ///< "plate:hole", each with friction
   std::vector<std::string> law_name{}, law_number{}, law_unit{};  ///< numbers of the laws; units of the derivatives
   std::vector<std::string> force_external{};                      ///< "plate:external" under a force or without load

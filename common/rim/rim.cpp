@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::rim {
@@ -21,10 +20,11 @@ bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector
 Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center, double radius,
              double tolerance) {
   Rim rim{center, radius, {}};
-  for (int i = 0; i < count_of(mesh.arcs); ++i) {
-    if (!on_circle(mesh, mesh.arcs[i], center, radius, tolerance)) continue;
-    const int edge = edges.between(mesh.arcs[i].a, mesh.arcs[i].b);
-    if (edge >= 0 && edges.arc[edge] == i && edges.is_border(edge)) rim.sides.push_back(edges.sides[edge].front());
+  for (const auto& arc : mesh.arcs) {
+    if (!on_circle(mesh, arc, center, radius, tolerance)) continue;
+    const int edge = edges.between(arc.a, arc.b);
+    if (edge >= 0 && &mesh.arcs[edges.arc[edge]] == &arc && edges.is_border(edge))
+      rim.sides.push_back(edges.sides[edge].front());
   }
   std::ranges::sort(rim.sides);
   return rim;

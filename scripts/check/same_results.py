@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares RESULT.h5, STUDY.h5 and the tables of two builds of stage3_nonlinear on random joints of the attack, by dataset.
+"""Compares RESULT.h5, STUDY.h5 and the tables of two builds of stage3_nonlinear on random joints of the attack, by dataset:
+same_results OLD NEW NUMBER [SEED], or OLD NEW kept on the joints of the examples and of the kept cases.
 
 Sheets are solved and extracted once, by the new build. Each number may be off by 1e-12 of the largest with its unit in the file;
 names, units, meanings and the lines of tables must be equal. Not compared: iterations, residuals, which follow from rounding, and
@@ -8,6 +9,7 @@ import csv
 import json
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -114,41 +116,88 @@ def study_of(random, joint):
                            "distribution": {"type": "normal", "mean": 1, "deviation": 0.05}}]}
 
 
+def random_joint(seed, folder):
+    """Files of a random joint with its study. @returns options of stage 3."""
+    choice = random.Random(seed)
+    scene = random_scene(choice)
+    (folder / "joint.json").write_text(json.dumps(scene.joint))
+    (folder / "study.json").write_text(json.dumps(study_of(choice, scene.joint)))
+    for sheet, plate in scene.plates.items():
+        (folder / f"{sheet}.json").write_text(json.dumps(plate))
+    return options(choice, scene.joint)
+
+
+def files_of(joint):
+    return {name: plate["file"] if isinstance(plate, dict) else plate for name, plate in joint["plates"].items()}
+
+
+def sheet_of(file):
+    return Path(file).name.split(".")[0]
+
+
+def solve_sheets(folder, programs, joint):
+    """True if all sheets of the joint could be solved and extracted, whose files are named after their matrices."""
+    for file in set(files_of(joint).values()):
+        sheet = f"{Path(file).parent / sheet_of(file)}"
+        for words in (["stage1_plate", f"{sheet}.json", "-o", f"{sheet}.plate.h5"], ["stage2_extract", f"{sheet}.plate.h5", "-o", file]):
+            if run(folder, programs / words[0], *words[1:])[0]:
+                return False
+    return True
+
+
+def compare(folder, joint, builds, words, seconds):
+    """Lines that say what differs, and whether the joint and its study, if it has one, were solved."""
+    said, lines, has_study = {}, [], (folder / "study.json").exists()
+    for which, program in builds.items():
+        status, text, time_of = run(folder, program, joint, "-o", f"{which}.h5", *(word.replace("OUT", which) for word in words))
+        seconds[which] += time_of
+        of_study, of_text = run(folder, program, joint, "--study", "study.json", "-o", f"{which}.study.h5", "--threads", "1")[:2] if has_study else (None, "")
+        said[which] = (status, of_study, text.replace(f"{which}.", ""), of_text.replace(f"{which}.", ""))
+    if said["old"] != said["new"]:
+        lines.append(f"said {said}")
+    for file in ("h5", "study.h5"):
+        if all((folder / f"{which}.{file}").exists() for which in builds):
+            lines += [f"{file}: {line}" for line in differences(folder / f"old.{file}", folder / f"new.{file}")]
+    for table in ("csv", "totals", "envelope", "margins"):
+        lines += [f"{table}: {line}" for line in differences_of_tables(folder / f"old.{table}", folder / f"new.{table}")]
+    return lines, said["new"][0] == 0, said["new"][1] == 0
+
+
+def kept_joints():
+    """Joints of the examples and of the kept cases of the attack."""
+    for path in sorted((*ROOT.glob("examples/*/*.json"), *ROOT.glob("tests/attack/cases/*/*.json"))):
+        try:
+            joint = json.loads(path.read_text())
+        except ValueError:
+            continue
+        if isinstance(joint, dict) and joint.get("format") == "joint" and isinstance(joint.get("plates"), dict):
+            yield path
+
+
 def main():
     builds = {"old": Path(sys.argv[1]).resolve() / "stage3_nonlinear", "new": Path(sys.argv[2]).resolve() / "stage3_nonlinear"}
-    n, first, bad, ran, studies, seconds = int(sys.argv[3]), int(sys.argv[4]) if len(sys.argv) > 4 else 0, 0, 0, 0, {"old": 0.0, "new": 0.0}
-    for seed in range(first, first + n):
-        choice = random.Random(seed)
-        scene = random_scene(choice)
+    kept = sys.argv[3] == "kept"
+    first = int(sys.argv[4]) if len(sys.argv) > 4 else 0
+    joints = list(kept_joints()) if kept else range(first, first + int(sys.argv[3]))
+    bad, ran, studies, seconds = 0, 0, 0, {"old": 0.0, "new": 0.0}
+    for each in joints:
         with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            (folder / "joint.json").write_text(json.dumps(scene.joint))
-            (folder / "study.json").write_text(json.dumps(study_of(choice, scene.joint)))
-            solved = True
-            for sheet, plate in scene.plates.items():
-                (folder / f"{sheet}.json").write_text(json.dumps(plate))
-                for words in (["stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5"], ["stage2_extract", f"{sheet}.h5", "-o", f"{sheet}.matrices.h5"]):
-                    solved = solved and run(folder, builds["new"].parent / words[0], *words[1:])[0] == 0
-            if not solved:
+            folder = Path(name) / "joint"
+            if kept:
+                shutil.copytree(each.parent, folder, ignore=shutil.ignore_patterns("*.h5", "out", "study.json"))
+                words = ["--csv", "OUT.csv"]
+            else:
+                folder.mkdir()
+                words = random_joint(each, folder)
+            joint = each.name if kept else "joint.json"
+            if not solve_sheets(folder, builds["new"].parent, json.loads((folder / joint).read_text())):
+                print(f"joint {each}: its sheets are not solved", flush=True) if kept else None
                 continue
-            chosen, said = options(choice, scene.joint), {}
-            for which, program in builds.items():
-                status, text, time_of = run(folder, program, "joint.json", "-o", f"{which}.h5", *(word.replace("OUT", which) for word in chosen))
-                seconds[which] += time_of
-                of_study, study_text, _ = run(folder, program, "joint.json", "--study", "study.json", "-o", f"{which}.study.h5", "--threads", "1")
-                said[which] = (status, of_study, text.replace(f"{which}.", ""), study_text.replace(f"{which}.", ""))
-            ran += said["new"][0] == 0
-            studies += said["new"][1] == 0
-            lines = [] if said["old"] == said["new"] else [f"said {said}"]
-            for file in ("h5", "study.h5"):
-                if all((folder / f"{which}.{file}").exists() for which in builds):
-                    lines += [f"{file}: {line}" for line in differences(folder / f"old.{file}", folder / f"new.{file}")]
-            for table in ("csv", "totals", "envelope", "margins"):
-                lines += [f"{table}: {line}" for line in differences_of_tables(folder / f"old.{table}", folder / f"new.{table}")]
-            bad += bool(lines)
+            lines, solved, studied = compare(folder, joint, builds, words, seconds)
+            ran, studies, bad = ran + solved, studies + studied, bad + bool(lines)
             for line in lines[:6]:
-                print(f"joint {seed}: {line[:300]}", flush=True)
-    print(f"{n} joints, {ran} and {studies} studies solved, {bad} differ; stage 3 took {seconds['old']:.1f} s and {seconds['new']:.1f} s")
+                print(f"joint {each}: {line[:300]}", flush=True)
+    print(f"{len(joints)} joints, {ran} and {studies} studies solved, {bad} differ; stage 3 took {seconds['old']:.1f} s and {seconds['new']:.1f} s")
     sys.exit(bool(bad))
 
 

@@ -79,10 +79,11 @@ VectorXd without_rounding(const VectorXd& q, double largest_load) {
   return (q.array().abs() > rounding * largest_load).select(q, 0);
 }
 
-void set_reference(CondensedSystem& system, const VectorXd& own, const std::vector<Index>& rims) {
+void set_reference(CondensedSystem& system, const VectorXd& own) {
   constexpr double floating = 1e-13;  // S_ud over the plate's stiffness if the plate has a single fastener
   constexpr double margin = 1.05, negligible = 1e-9, rounding = 1e-12;
   const Index n = own.size(), a = own.size() == 0 ? 0 : (system.S_ud.rows() - system.n_moments) / n;
+  const std::vector<Index>& rims = system.rims;
   MatrixXd& S = system.S_ud;
   const VectorXd of_rows = S.topRows(n * a).cwiseAbs().rowwise().sum();
   for (Index i = 0; i < n * a; ++i) {
@@ -134,7 +135,8 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.D_load = given + system.rigid.moved(loads);
   system.friction = friction_layout(joint);
   system.H = friction_matrix(joint, system.friction.columns, system.D_delta);
-  set_reference(system, own_stiffness(joint), joint.rim_sizes());
+  system.rims = joint.rim_sizes();
+  set_reference(system, own_stiffness(joint));
   return system;
 }
 

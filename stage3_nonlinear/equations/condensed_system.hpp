@@ -23,6 +23,7 @@ struct CondensedSystem {
   MatrixXd S_ud;                                ///< (r, r) force / length
   MatrixXd Q;                                   ///< (r, l) forces of rigid fasteners per unit of each load column
   Index n_moments = 0;                          ///< r - n a
+  std::vector<Index> rims = {};                 ///< numbers of moments of the rims of contact, rim after rim
   VectorXd Q_scale = VectorXd::Ones(Q.cols());  ///< (l) largest force of each load column, for rounding
   MatrixXd H = MatrixXd(S_ud.rows(), 0);        ///< (r, t) forces by friction, per unit of each amplitude
   std::vector<LoadColumn> load_columns = {};    ///< (l)
@@ -37,8 +38,6 @@ struct CondensedSystem {
   /// S_ud of a plane is only rounding, k is the plate's own stiffness.
   VectorXd stiffness = {};
   MatrixXd metric = {};  ///< (r, r) inverse of W, length / force
-
-  [[nodiscard]] Index n_friction() const { return H.cols(); }
 };
 
 /// Forces q with rounding errors of a load that does not reach a fastener set to zero, since forces are solved relative
@@ -46,8 +45,8 @@ struct CondensedSystem {
 [[nodiscard]] VectorXd without_rounding(const VectorXd& q, double largest_load);
 
 /// Sets stiffness and metric.
-/// @param own Stiffness of the plates at each plane, (n). @param rims Numbers of rows of the rims.
-void set_reference(CondensedSystem& system, const VectorXd& own, const std::vector<Index>& rims = {});
+/// @param own Stiffness of the plates at each plane, (n).
+void set_reference(CondensedSystem& system, const VectorXd& own);
 
 /// Condenses a joint. @throws NumericalError naming the plates that can move freely.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint, const Held& held);

@@ -16,77 +16,55 @@ ContactState contact_state(const std::vector<PlacedInterface>& interfaces, const
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const auto& [interface, row, friction] = interfaces[i];
     const Index n = interface->size();
-    const Response& part =
-        state.parts.emplace_back(interface->respond(c.segment(row, n), history.empty() ? History() : history[i]));
+    const Response& part = state.parts.emplace_back(
+        PlacedResponse{interface->respond(c.segment(row, n), history.empty() ? History() : history[i]), row, friction});
     state.F.segment(row, n) = part.F;
     state.delta.segment(row, n) = part.delta;
     state.Lambda.segment(friction, part.Lambda.size()) = part.Lambda;
     if (part.failed >= 0) state.failed = row + part.failed;
   }
-  for (Index j = 0; j < n_planes; ++j) {
-    const VectorXd here = c.segment(j * n_directions, n_directions);
-    const double length = here.norm();
-    state.direction.col(j) = length > 0 ? VectorXd(here / length) : VectorXd(VectorXd::Unit(n_directions, 0));
-  }
+  for (Index j = 0; j < n_planes; ++j) state.direction.col(j) = along(c.segment(j * n_directions, n_directions));
   return state;
 }
 
 double ContactState::along(MatrixXd Response::*slopes, Index plane) const {
   const Index a = direction.rows();
-  Index first = 0;
-  for (const Response& part : parts) {
-    const Index at = plane * a - first, n = part.F.size();
-    if (at < n) return direction.col(plane).dot((part.*slopes).block(at, at, a, a) * direction.col(plane));
-    first += n;
-  }
-  return 0;
+  const PlacedResponse& part = parts[part_of(plane * a)];
+  const Index at = plane * a - part.row;
+  return direction.col(plane).dot((part.*slopes).block(at, at, a, a) * direction.col(plane));
 }
 
 MatrixXd ContactState::times(const MatrixXd& A, MatrixXd Response::*slopes) const {
   MatrixXd result(A.rows(), A.cols());
-  Index first = 0;
-  for (const Response& part : parts) {
+  for (const PlacedResponse& part : parts) {
     const MatrixXd& block = part.*slopes;
-    const auto columns = A.middleCols(first, block.cols());
+    const auto columns = A.middleCols(part.row, block.cols());
     if (block.isDiagonal(0)) {
-      result.middleCols(first, block.cols()) = columns * block.diagonal().asDiagonal();
+      result.middleCols(part.row, block.cols()) = columns * block.diagonal().asDiagonal();
     } else {
-      result.middleCols(first, block.cols()).noalias() = columns * block;
+      result.middleCols(part.row, block.cols()).noalias() = columns * block;
     }
-    first += block.cols();
   }
   return result;
 }
 
 MatrixXd ContactState::product(MatrixXd Response::*slopes, const MatrixXd& x) const {
   MatrixXd result(x.rows(), x.cols());
-  Index first = 0;
-  for (const Response& part : parts) {
-    const MatrixXd& block = part.*slopes;
-    result.middleRows(first, block.rows()).noalias() = block * x.middleRows(first, block.rows());
-    first += block.rows();
-  }
+  for (const PlacedResponse& part : parts)
+    result.middleRows(part.row, part.F.size()).noalias() = part.*slopes * x.middleRows(part.row, part.F.size());
   return result;
 }
 
 void ContactState::add(double factor, MatrixXd Response::*slopes, MatrixXd& A) const {
-  Index first = 0;
-  for (const Response& part : parts) {
-    const MatrixXd& block = part.*slopes;
-    A.block(first, first, block.rows(), block.cols()) += factor * block;
-    first += block.cols();
-  }
+  for (const PlacedResponse& part : parts)
+    A.block(part.row, part.row, part.F.size(), part.F.size()) += factor * part.*slopes;
 }
 
 MatrixXd ContactState::friction_by(const MatrixXd& dc) const {
   MatrixXd result(Lambda.size(), dc.cols());
-  Index row = 0, friction = 0;
-  for (const Response& part : parts) {
-    const Index t = part.dLambda.rows(), n = part.F.size();
-    if (t > 0) result.middleRows(friction, t).noalias() = part.dLambda * dc.middleRows(row, n);
-    friction += t;
-    row += n;
-  }
+  for (const PlacedResponse& part : parts)
+    if (const Index t = part.dLambda.rows(); t > 0)
+      result.middleRows(part.friction, t).noalias() = part.dLambda * dc.middleRows(part.row, part.F.size());
   return result;
 }
 

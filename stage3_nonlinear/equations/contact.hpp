@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,17 +17,26 @@ struct PlacedInterface {
   Index row = 0, friction = 0;
 };
 
+/// Response of an interface with the same indices.
+struct PlacedResponse : Response {
+  Index row = 0, friction = 0;
+};
+
 /// Responses of all interfaces of a joint to its contact coordinates: forces and displacements of n shear planes in a
 /// directions, row plane * a + direction, then those of the moments of rims of contact, r rows in all, and amplitudes
 /// of friction.
 struct ContactState {
-  VectorXd F;                   ///< (r) bearing forces, force
-  VectorXd delta;               ///< (r) relative displacements of the discs, and moments, length
-  VectorXd Lambda;              ///< (t) amplitudes of friction
-  std::vector<Response> parts;  ///< of each interface, with derivatives
-  MatrixXd direction;           ///< (a, n) unit vectors along c of the planes
-  std::optional<Index> failed;  ///< a row past the limit load of its interface
+  VectorXd F;                         ///< (r) bearing forces, force
+  VectorXd delta;                     ///< (r) relative displacements of the discs, and moments, length
+  VectorXd Lambda;                    ///< (t) amplitudes of friction
+  std::vector<PlacedResponse> parts;  ///< of each interface, with derivatives
+  MatrixXd direction;                 ///< (a, n) unit vectors along c of the planes
+  std::optional<Index> failed;        ///< a row past the limit load of its interface
 
+  /// Index of the part with a row.
+  [[nodiscard]] Index part_of(Index row) const {
+    return std::ranges::upper_bound(parts, row, {}, &PlacedResponse::row) - parts.begin() - 1;
+  }
   /// Derivative dF / dc or d delta / dc of a plane along c.
   [[nodiscard]] double along(MatrixXd Response::*slopes, Index plane) const;
   /// Product of A and the block diagonal matrix of derivatives, shape as A, (rows, r).

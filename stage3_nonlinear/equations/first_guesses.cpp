@@ -7,16 +7,14 @@ namespace fastjoint::stage3 {
 
 LinearForces linear_forces(const JointEquations& equations, const VectorXd& flexibility, double load_factor) {
   constexpr int max_tries = 8;
-  const auto rims = equations.rim_sizes();
   MatrixXd A = equations.system->S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
   const VectorXd rhs = equations.rigid_forces(load_factor);
-  LinearForces result{TangentFactor(A, rims).solve(rhs), 1, !equations.has_cosine_friction};
-  while (!result.consistent && result.solves < max_tries) {
+  LinearForces result{TangentFactor(A, equations.system->rims).solve(rhs), !equations.has_cosine_friction};
+  for (int i = 1; i < max_tries && !result.consistent; ++i) {
     const MatrixXd friction = equations.friction_matrix(result.F);
-    result.F = TangentFactor(A + friction, rims).solve(rhs);
+    result.F = TangentFactor(A + friction, equations.system->rims).solve(rhs);
     result.consistent = equations.friction_matrix(result.F) == friction;
-    ++result.solves;
   }
   return result;
 }
@@ -32,13 +30,12 @@ VectorXd guessed_forces(const JointEquations& equations, const InitialScene& ini
   if (initial.guess == Guess::linear) {
     const double K = initial.stiffness.value_or(equations.system->S_ud.diagonal().head(n).mean());
     flexibility.head(n).setConstant(K > 0 ? 1 / K : 0);
-    return linear_forces(equations, flexibility, load_factor).F;
   }
-  VectorXd rigid = linear_forces(equations, flexibility, load_factor).F;
-  if (initial.guess == Guess::rigid) return rigid;
-  const VectorXd mean = rigid.head(n).reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
-  rigid.head(n) = mean.replicate(equations.n_planes(), 1);
-  return rigid;
+  VectorXd F = linear_forces(equations, flexibility, load_factor).F;
+  if (initial.guess != Guess::equal) return F;
+  const VectorXd mean = F.head(n).reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
+  F.head(n) = mean.replicate(equations.n_planes(), 1);
+  return F;
 }
 
 VectorXd guessed_coordinates(const JointEquations& equations, const VectorXd& F) {

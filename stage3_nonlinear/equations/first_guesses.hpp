@@ -10,8 +10,7 @@ namespace fastjoint::stage3 {
 /// Bearing forces when every fastener is a linear spring.
 struct LinearForces {
   VectorXd F;               ///< (r) force
-  int solves = 0;           ///< number of trials, since with friction the bearing sides are found by trial
-  bool consistent = false;  ///< friction acts on the bearing sides
+  bool consistent = false;  ///< friction acts on the bearing sides, which are found by trial
 };
 
 /// Solves (I + S_ud diag(flexibility) + H E) F = lambda q, with the columns of H for the bearing sides (docs/theory.md,

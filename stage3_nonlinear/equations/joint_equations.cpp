@@ -15,12 +15,12 @@ namespace {
 
 /// Adds a small stiffness to vanishing slopes in the Jacobian, not in the residual. It falls with the residual, so that
 /// Newton's method converges fast also if a plate has springs as weak as this (docs/theory.md, section 8.5).
-void add_trace(const JointEquations& equations, double residual, ContactState& state) {
-  constexpr double max_trace = 1e-7;
-  constexpr double min_trace = 1e-11;  // rounding divided by this is still a small step
-  const double trace = std::clamp(max_trace * residual, min_trace, max_trace);
+void add_small_stiffness(const JointEquations& equations, double residual, ContactState& state) {
+  constexpr double most = 1e-7;
+  constexpr double least = 1e-11;  // rounding divided by this is still a small step
+  const double small = std::clamp(most * residual, least, most);
   for (Index i = 0; i < std::ssize(state.parts); ++i)
-    equations.interfaces[i].interface->add_trace(trace, state.parts[i]);
+    equations.interfaces[i].interface->add_small_stiffness(small, state.parts[i]);
 }
 
 /// Throws if a hole has friction here but none in the condensed joint.
@@ -73,9 +73,9 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
     const auto& waves = joint.plates[plate].short_waves[at];
     const double k = equations.system->stiffness[equations.n_planes() + i];
     equations.rims.push_back(std::make_shared<const RimProblem>(
-        !like.empty()
-            ? like[i]->with(gap, mu)
-            : RimProblem(RimContact(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves, rim.area, k)));
+        !like.empty() ? like[i]->with(gap, mu)
+                      : RimProblem(CompressionOnlyRim(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves,
+                                   rim.area, k)));
     equations.has_friction = equations.has_friction || mu != 0;
     place(std::make_shared<RimInterface>(equations.rims.back(), i, may_rub), equations.interfaces);
   }
@@ -84,17 +84,6 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
 /// Forces of rigid fasteners by the loads of the load columns, (r).
 VectorXd rigid_forces_by(const CondensedSystem& system, const VectorXd& loads) {
   return without_rounding(system.Q * loads, loads.cwiseAbs().cwiseProduct(system.Q_scale).lpNorm<Eigen::Infinity>());
-}
-
-/// Values of the load columns, (l), from a value of each load; zero for columns that are not active at a load factor.
-VectorXd of_active_columns(const JointEquations& equations, double load_factor, const VectorXd& values) {
-  const auto& columns = equations.system->load_columns;
-  const VectorXd load = equations.parameters.load_at(load_factor);
-  return VectorXd::NullaryExpr(std::ssize(columns), [&](Index i) {
-    const Index at = columns[i].load;
-    const double rate = equations.parameters.load[at];  // a load of zero counts as one that grows with the load factor
-    return is_active(columns[i].sign, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
-  });
 }
 
 }  // namespace
@@ -123,24 +112,9 @@ Index JointEquations::entry_of(Index row) const {
   return n_planes() + rim;
 }
 
-std::vector<Index> JointEquations::rim_sizes() const {
-  std::vector<Index> sizes;
-  for (const auto& rim : rims) sizes.push_back(rim->n_long());
-  return sizes;
-}
-
 VectorXd JointEquations::of_rim(const VectorXd& c, Index rim) const {
   const PlacedInterface& placed = interfaces[std::ssize(interfaces) - std::ssize(rims) + rim];
   return c.segment(placed.row, placed.interface->size());
-}
-
-bool JointEquations::has_interference() const {
-  return std::ranges::any_of(rims, [](const auto& rim) { return rim->contact().gap() < 0; });
-}
-
-const MatrixXd& JointEquations::metric() const {
-  static const MatrixXd none;
-  return rises ? system->metric : none;
 }
 
 double JointEquations::force_of_clearances() const {
@@ -149,25 +123,12 @@ double JointEquations::force_of_clearances() const {
   return force;
 }
 
-namespace {
-
-/// Largest force of rims by a length of each.
-template <class Length>
-double largest_force(const JointEquations& equations, const Length& length) {
+double JointEquations::force_of_gaps(bool interference_alone) const {
   double force = 0;
-  for (const auto& rim : equations.rims)
-    force = std::max(force, std::max(rim->k(), rim->contact().stiffness()) * length(rim->contact().gap()));
+  for (const auto& rim : rims)
+    if (const double gap = rim->contact().gap(); gap < 0 || !interference_alone)
+      force = std::max(force, std::max(rim->k(), rim->contact().stiffness()) * std::abs(gap));
   return force;
-}
-
-}  // namespace
-
-double JointEquations::force_of_gaps() const {
-  return largest_force(*this, [](double gap) { return std::abs(gap); });
-}
-
-double JointEquations::force_of_interference() const {
-  return largest_force(*this, [](double gap) { return std::max(-gap, 0.0); });
 }
 
 double JointEquations::force_of_sets() const {
@@ -195,16 +156,14 @@ std::vector<PlaneMemory> JointEquations::memories() const {
   return all;
 }
 
-VectorXd JointEquations::load_at(double load_factor) const {
-  return of_active_columns(*this, load_factor, parameters.load_at(load_factor));
-}
-
-VectorXd JointEquations::load_rates(double load_factor) const {
-  return of_active_columns(*this, load_factor, parameters.load);
-}
-
-VectorXd JointEquations::active_columns(double load_factor) const {
-  return of_active_columns(*this, load_factor, VectorXd::Ones(parameters.load.size()));
+VectorXd JointEquations::of_active_columns(double load_factor, const VectorXd& values) const {
+  const auto& columns = system->load_columns;
+  const VectorXd load = parameters.load_at(load_factor);
+  return VectorXd::NullaryExpr(std::ssize(columns), [&](Index i) {
+    const Index at = columns[i].load;
+    const double rate = parameters.load[at];  // a load of zero counts as one that grows with the load factor
+    return is_active(columns[i].sign, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
+  });
 }
 
 VectorXd JointEquations::q_at(double load_factor) const {
@@ -214,12 +173,9 @@ VectorXd JointEquations::q_at(double load_factor) const {
 
 VectorXd JointEquations::rigid_forces(double load_factor) const {
   if (starts_unloaded()) return load_factor * q_at(load_factor);
-  return rigid_forces_by(*system, load_at(load_factor)) + forces_of_offsets();
-}
-
-VectorXd JointEquations::forces_of_offsets() const {
-  if (parameters.offset.size() == 0) return VectorXd::Zero(n_unknowns());
-  return without_rounding(system->S_ud.leftCols(parameters.offset.size()) * parameters.offset, force_of_offsets());
+  const VectorXd by_loads = rigid_forces_by(*system, load_at(load_factor)), &offset = parameters.offset;
+  if (offset.size() == 0) return by_loads;
+  return by_loads + without_rounding(system->S_ud.leftCols(offset.size()) * offset, force_of_offsets());
 }
 
 double JointEquations::force_of_offsets() const {
@@ -240,10 +196,6 @@ VectorXd JointEquations::required(const ContactState& state, bool friction) cons
   return forces;
 }
 
-VectorXd JointEquations::residual(const ContactState& state, double load_factor) const {
-  return required(state, has_friction) - rigid_forces(load_factor);
-}
-
 MatrixXd JointEquations::friction_matrix(const VectorXd& F) const {
   MatrixXd M = MatrixXd::Zero(F.size(), F.size());
   for (const auto& [interface, row, friction] : interfaces) {
@@ -259,27 +211,17 @@ ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
   return contact_state(equations.interfaces, equations.history, equations.n_directions(), equations.n_planes(), c);
 }
 
-MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) { return equations.metric() * residuals; }
-
-void add_friction_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J) {
-  Index row = 0, friction = 0;
-  for (const Response& part : state.parts) {
-    const Index t = part.dLambda.rows(), n = part.F.size();
-    if (t > 0) J.middleCols(row, n).noalias() += system.H.middleCols(friction, t) * part.dLambda;
-    row += n;
-    friction += t;
-  }
-}
-
 MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction) {
   MatrixXd J = state.times(system.S_ud, &Response::ddelta);
   state.add(1, &Response::dF, J);
-  if (friction) add_friction_slopes(system, state, J);
+  for (const PlacedResponse& part : state.parts)
+    if (const Index t = part.dLambda.rows(); friction && t > 0)
+      J.middleCols(part.row, part.F.size()).noalias() += system.H.middleCols(part.friction, t) * part.dLambda;
   return J;
 }
 
 MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
-  MatrixXd H = equations.metric();
+  MatrixXd H = equations.system->metric;
   state.add(-1, &Response::ddelta, H);
   return H;
 }
@@ -299,21 +241,21 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   };
   const auto traced = [&equations, residual, scale](const VectorXd& x) {
     auto state = contact_state(equations, scale * x);
-    add_trace(equations, residual(state).cwiseAbs().maxCoeff(), state);
+    add_small_stiffness(equations, residual(state).cwiseAbs().maxCoeff(), state);
     return state;
   };
   problem.jacobian = [&system, traced, friction](const VectorXd& x) -> MatrixXd {
     return tangent(system, traced(x), friction);
   };
   const bool convex = equations.rises && !friction;
-  if (convex) problem.gradient = [&equations](const VectorXd& r) { return gradient(equations, r); };
+  if (convex) problem.gradient = [&system](const VectorXd& r) { return system.metric * r; };
   problem.solve = [&equations, traced, friction, convex](const VectorXd& x, const VectorXd& r) -> VectorXd {
     const ContactState state = traced(x);
     if (convex && equations.rims.empty()) {
       const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
-      if (factor.info() == Eigen::Success) return factor.solve(gradient(equations, r));
+      if (factor.info() == Eigen::Success) return factor.solve(equations.system->metric * r);
     }
-    return TangentFactor(tangent(*equations.system, state, friction), equations.rim_sizes()).step(r);
+    return TangentFactor(tangent(*equations.system, state, friction), equations.system->rims).step(r);
   };
   return problem;
 }

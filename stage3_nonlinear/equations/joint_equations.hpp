@@ -38,21 +38,17 @@ struct JointEquations {
   [[nodiscard]] Index n_unknowns() const { return system->S_ud.rows(); }
   /// Index of the plane of an unknown, or number of planes plus index of the rim of contact.
   [[nodiscard]] Index entry_of(Index row) const;
-  /// Numbers of moments of the rims, rim after rim.
-  [[nodiscard]] std::vector<Index> rim_sizes() const;
   /// Coordinates of a rim of contact, (n_long).
   [[nodiscard]] VectorXd of_rim(const VectorXd& c, Index rim) const;
   /// True if a disc is larger than the rim of contact around it.
-  [[nodiscard]] bool has_interference() const;
-  /// CondensedSystem::metric, with which the solution minimises a convex function (docs/theory.md, section 8.4); empty
-  /// if a law falls.
-  [[nodiscard]] const MatrixXd& metric() const;
+  [[nodiscard]] bool has_interference() const {
+    return std::ranges::any_of(rims, [](const auto& rim) { return rim->contact().gap() < 0; });
+  }
   /// Largest force that would deform the plates by a clearance, or the springs of a rim by its gap or interference,
   /// force.
   [[nodiscard]] double force_of_clearances() const;
-  [[nodiscard]] double force_of_gaps() const;
-  /// The same of interference alone, which acts without load, force.
-  [[nodiscard]] double force_of_interference() const;
+  /// @param interference_alone Which acts without load.
+  [[nodiscard]] double force_of_gaps(bool interference_alone = false) const;
   /// Largest force that would take the permanent set of a plane, 0 without memory.
   [[nodiscard]] double force_of_sets() const;
   /// Largest force that would push the free sheets together, plane by plane, force.
@@ -69,21 +65,26 @@ struct JointEquations {
   }
   /// True if there is no load at load factor 0.
   [[nodiscard]] bool starts_unloaded() const { return !parameters.starts_loaded(); }
-  /// S_ud times the offsets of the planes, the forces of rigid fasteners by the free shapes of the sheets, (r); force.
-  [[nodiscard]] VectorXd forces_of_offsets() const;
   /// Relative displacements of the planes and moments of a solution less the offsets: what deforms the sheets, (r).
   [[nodiscard]] VectorXd deforming(const VectorXd& delta) const;
-  /// Forces of rigid fasteners at a load factor, (r), force.
+  /// Forces of rigid fasteners at a load factor, with those by the free shapes of the sheets: S_ud times the offsets of
+  /// the planes, (r), force.
   [[nodiscard]] VectorXd rigid_forces(double load_factor) const;
   /// Loads of the load columns at a load factor, and their derivatives by it, (l).
-  [[nodiscard]] VectorXd load_at(double load_factor) const;
-  [[nodiscard]] VectorXd load_rates(double load_factor) const;
-  /// 1 for load columns that are active at a load factor, else 0, (l).
-  [[nodiscard]] VectorXd active_columns(double load_factor) const;
+  [[nodiscard]] VectorXd load_at(double load_factor) const {
+    return of_active_columns(load_factor, parameters.load_at(load_factor));
+  }
+  [[nodiscard]] VectorXd load_rates(double load_factor) const {
+    return of_active_columns(load_factor, parameters.load);
+  }
+  /// Values of the load columns, (l), from a value of each load; zero for columns that are not active at a load factor.
+  [[nodiscard]] VectorXd of_active_columns(double load_factor, const VectorXd& values) const;
   /// F + S_ud delta and, with friction, H Lambda, (r), force.
   [[nodiscard]] VectorXd required(const ContactState& state, bool friction) const;
   /// F + S_ud delta + H Lambda minus the forces of rigid fasteners, (r), force.
-  [[nodiscard]] VectorXd residual(const ContactState& state, double load_factor) const;
+  [[nodiscard]] VectorXd residual(const ContactState& state, double load_factor) const {
+    return required(state, has_friction) - rigid_forces(load_factor);
+  }
   /// Derivative of the forces H Lambda of cosine friction by F for the sides that bear under F, (r, r), dimensionless.
   [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
 };
@@ -97,18 +98,13 @@ struct JointEquations {
 /// @param c Contact coordinates, shape (r), force.
 [[nodiscard]] ContactState contact_state(const JointEquations& equations, const VectorXd& c);
 
-/// Gradients at the residuals, (r, columns), of the convex function of `metric`.
-[[nodiscard]] MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals);
-
-/// Adds the derivative of the forces of friction by c to J, (r, r), dimensionless.
-void add_friction_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J);
-
 /// Derivative of the residual by c, shape (r, r), at the state of the contact coordinates c.
 ///
 /// @param friction If false, the derivative of friction is left out.
 [[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
-/// Hessian of that convex function, symmetric, shape (r, r), length / force: W^-1 - d delta / dc. The tangent is W
+/// Hessian of the convex function that the solution minimises, whose gradient is CondensedSystem::metric times the
+/// residual, symmetric, shape (r, r), length / force: W^-1 - d delta / dc. The tangent is W
 /// times it (docs/theory.md, section 8.4). Only for joints without a law that falls.
 [[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
 

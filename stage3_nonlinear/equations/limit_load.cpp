@@ -2,7 +2,6 @@
 #include "stage3_nonlinear/equations/limit_load.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -135,12 +135,4 @@ RigidJoint::RigidJoint(const JointModel& joint, const Held& held, const MatrixXd
     fail_as_mechanism(joint, Z_ * MatrixXd(scale_.asDiagonal() * motions_without_stiffness(S_z)));
 }
 
-MatrixXd RigidJoint::half_solve(const MatrixXd& f) const {
-  return factor_.matrixL().solve(scale_.asDiagonal() * MatrixXd(Z_.transpose() * f));
-}
-
-MatrixXd RigidJoint::restore(const MatrixXd& half) const {
-  return Z_ * MatrixXd(scale_.asDiagonal() * factor_.matrixU().solve(half));
-}
-
 }  // namespace fastjoint::stage3

@@ -26,9 +26,13 @@ class RigidJoint {
   [[nodiscard]] const SparseMatrix& Z() const { return Z_; }  ///< (N, z) of 0 and 1
   [[nodiscard]] const SparseMatrix& Y() const { return Y_; }  ///< (N, r) of -1, 0 and 1
   /// L^-1 Z^T f of forces f on all unknowns, (N, columns), where Z^T S Z = L L^T: (z, columns).
-  [[nodiscard]] MatrixXd half_solve(const MatrixXd& f) const;
+  [[nodiscard]] MatrixXd half_solve(const MatrixXd& f) const {
+    return factor_.matrixL().solve(scale_.asDiagonal() * MatrixXd(Z_.transpose() * f));
+  }
   /// Displacements Z L^-T half of all unknowns, (N, columns), length.
-  [[nodiscard]] MatrixXd restore(const MatrixXd& half) const;
+  [[nodiscard]] MatrixXd restore(const MatrixXd& half) const {
+    return Z_ * MatrixXd(scale_.asDiagonal() * factor_.matrixU().solve(half));
+  }
   /// Displacements of all unknowns under forces on them, (N, columns), length.
   [[nodiscard]] MatrixXd moved(const MatrixXd& f) const { return restore(half_solve(f)); }
 

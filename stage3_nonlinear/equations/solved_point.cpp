@@ -70,7 +70,7 @@ void SolvedPoint::factorise() {
   if (inverse_) return;
   MatrixXd J = tangent(*equations_.system, beyond_);
   scale_ = scale_columns(J);
-  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.rim_sizes());
+  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.system->rims);
 }
 
 /// Replaces the forces at no load, under which no rim bears, by those of a small load, which determine the sides on
@@ -90,48 +90,33 @@ void SolvedPoint::find_bearing_sides() {
   }
 }
 
+/// If J is singular, slopes are found by least squares: columns with a remaining residual, and forces that change along
+/// the null space, have no derivative.
 Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   if (inverse_) {
     const MatrixXd dc = residual ? *inverse_ * *residual : *inverse_;
     return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
   }
-  const Index r = c_.size();
-  if (!(factor_->rcond() > singular_tangent)) return residual ? slopes_of_singular(-*residual) : back_from_singular();
-  if (!residual) {  // the transposed system has fewer right-hand sides: one for each force
-    const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), r), &Response::dF);
-    const MatrixXd back = factor_->solve_transposed(scale_.cwiseInverse().asDiagonal() * F_c.transpose());
-    return {-back.transpose(), {}, {}, {}};
-  }
-  const MatrixXd dc = scale_.cwiseInverse().asDiagonal() * factor_->solve(*residual);
-  return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
-}
-
-/// Slopes for the identity if J is singular: forces that change along its null space have no derivative.
-Slopes SolvedPoint::back_from_singular() const {
-  const MatrixXd F_x = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), c_.size()), &Response::dF) *
-                       scale_.cwiseInverse().asDiagonal();
-  const auto [back, free] = factor_->solve_singular_transposed(F_x.transpose(), singular_tangent);
-  Slopes slopes{-back.transpose(), {}, {}, {}};
-  const MatrixXd F_free = F_x * free;
-  for (Index i = 0; i < F_free.rows(); ++i)
-    if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
-  return slopes;
-}
-
-/// Slopes by least squares if J is singular: columns with a remaining residual, and forces that change along the null
-/// space, have no derivative.
-Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
   constexpr double max_residual = 1e-6;  // above the imbalance by the tolerance of the solver
-  const auto [dx, free] = factor_->solve_singular(rhs, singular_tangent);
-  const MatrixXd F_x =
-      beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), &Response::dF) * scale_.cwiseInverse().asDiagonal();
-  Slopes slopes{beyond_.product(&Response::dF, scale_.cwiseInverse().asDiagonal() * dx),
-                scale_.cwiseInverse().asDiagonal() * dx,
-                {},
-                {}};
-  const MatrixXd rest = factor_->matrix() * dx - rhs, F_free = F_x * free;
-  for (Index i = 0; i < rhs.cols(); ++i)
-    if (rest.col(i).norm() > max_residual * rhs.col(i).norm()) slopes.no_column.push_back(i);
+  const bool singular = !(factor_->rcond() > singular_tangent);
+  const VectorXd unscaled = scale_.cwiseInverse();
+  const auto forces_by_unknowns = [&](Index rows) -> MatrixXd {
+    return beyond_.times(MatrixXd::Identity(rows, c_.size()), &Response::dF) * unscaled.asDiagonal();
+  };
+  Slopes slopes;
+  if (residual) {
+    const MatrixXd x = singular ? factor_->solve_singular(*residual) : factor_->solve(*residual);
+    slopes.c = -(unscaled.asDiagonal() * x);
+    slopes.F = beyond_.product(&Response::dF, slopes.c);
+    const MatrixXd rest = singular ? MatrixXd(factor_->matrix() * x - *residual) : MatrixXd();
+    for (Index i = 0; i < rest.cols(); ++i)
+      if (rest.col(i).norm() > max_residual * residual->col(i).norm()) slopes.no_column.push_back(i);
+  } else {  // the transposed system has fewer right-hand sides: one for each force
+    const MatrixXd rhs = forces_by_unknowns(equations_.n_plane_rows()).transpose();
+    slopes.F = -(singular ? factor_->solve_singular_transposed(rhs) : factor_->solve_transposed(rhs)).transpose();
+  }
+  if (!singular) return slopes;
+  const MatrixXd F_free = forces_by_unknowns(slopes.F.rows()) * factor_->free_motions();
   for (Index i = 0; i < F_free.rows(); ++i)
     if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
   return slopes;

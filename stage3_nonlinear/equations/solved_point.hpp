@@ -47,8 +47,6 @@ class SolvedPoint {
  private:
   void factorise();
   void find_bearing_sides();
-  [[nodiscard]] Slopes slopes_of_singular(const MatrixXd& rhs) const;
-  [[nodiscard]] Slopes back_from_singular() const;
 
   JointEquations equations_;
   double load_factor_;

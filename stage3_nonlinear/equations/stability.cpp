@@ -20,7 +20,7 @@ namespace {
 Mechanism mechanism(const JointEquations& equations, const ContactState& state, const TangentFactor& J,
                     const VectorXd& scale) {
   constexpr double moves = 1e-6, level = 1e-12, far = 1e6;
-  const MatrixXd dc = scale.cwiseInverse().asDiagonal() * J.free_motions(singular_tangent);
+  const MatrixXd dc = scale.cwiseInverse().asDiagonal() * J.free_motions();
   const MatrixXd delta = state.product(&Response::ddelta, dc);
   Mechanism result{{}, {}, equations.system->D_delta * delta.rightCols(1)};
   const Index a = state.direction.rows();
@@ -125,26 +125,20 @@ bool seems_stable(const JointEquations& equations, const MatrixXd& J) {
   if (leftmost(ritz_values([&](const VectorXd& x) -> VectorXd { return J * x; }, n, steps)) < left) return false;
   MatrixXd shifted = J;
   shifted.diagonal().array() += shift;
-  const TangentFactor factor(std::move(shifted), equations.rim_sizes());
+  const TangentFactor factor(std::move(shifted), equations.system->rims);
   const Eigen::VectorXcd inverse = ritz_values([&](const VectorXd& x) { return factor.step(x); }, n, steps);
   return leftmost(inverse) > left * inverse.cwiseAbs().maxCoeff();
 }
 
 /// Sets a positive slope of the force of a plane along c, and that of its friction, to zero.
 void remove_stiffness(const JointEquations& equations, ContactState& state, Index plane) {
-  const Index a = state.direction.rows();
-  Index row = plane * a;
-  for (Index i = 0; i < std::ssize(state.parts); ++i) {
-    Response& part = state.parts[i];
-    if (row < part.F.size()) {
-      const double rise = std::max(state.along(&Response::dF, plane), 0.0);
-      part.dF.block(row, row, a, a) -= rise * state.direction.col(plane) * state.direction.col(plane).transpose();
-      const MatrixXd by_force = equations.interfaces[i].interface->friction_by_force(part.F);
-      if (by_force.size() > 0) part.dLambda = by_force * part.dF;
-      return;
-    }
-    row -= part.F.size();
-  }
+  const Index a = state.direction.rows(), i = state.part_of(plane * a);
+  PlacedResponse& part = state.parts[i];
+  const Index row = plane * a - part.row;
+  const double rise = std::max(state.along(&Response::dF, plane), 0.0);
+  part.dF.block(row, row, a, a) -= rise * state.direction.col(plane) * state.direction.col(plane).transpose();
+  const MatrixXd by_force = equations.interfaces[i].interface->friction_by_force(part.F);
+  if (by_force.size() > 0) part.dLambda = by_force * part.dF;
 }
 
 }  // namespace

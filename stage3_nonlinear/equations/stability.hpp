@@ -32,9 +32,6 @@ struct TangentCheck {
   [[nodiscard]] bool at_limit_load() const { return mechanism && !mechanism->level.empty(); }
 };
 
-/// Reciprocal condition, with columns scaled, below which a tangent is singular.
-inline constexpr double singular_tangent = 1e-10;
-
 /// @param scale Divisors of the columns of the tangent before it was factorised.
 [[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state,
                                          const TangentFactor& factor, const VectorXd& scale);

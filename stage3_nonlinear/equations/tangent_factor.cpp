@@ -28,34 +28,6 @@ Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index siz
   return n;
 }
 
-/// Refines a solution iteratively until the residual is rounding or does not fall any more.
-/// @param norm 1-norm of J: x is large if J is nearly singular, and then J x has rounding of its own.
-/// @param wanted Residual over b.
-template <typename Solve, typename Matrix>
-MatrixXd corrected(const Solve& solve, const Matrix& J, double norm, const MatrixXd& b, double wanted) {
-  constexpr int max_steps = 8;
-  constexpr double of_product = 1e-16, falls = 0.5;
-  MatrixXd x = solve(b), residual = b - J * x;
-  double before = std::numeric_limits<double>::infinity();
-  const auto is_left = [&] { return residual.norm() > std::max(wanted * b.norm(), of_product * norm * x.norm()); };
-  for (int i = 0; i < max_steps && is_left() && residual.norm() < falls * before; ++i) {
-    before = residual.norm();
-    x += solve(residual);
-    residual = b - J * x;
-  }
-  return x;
-}
-
-/// The same, or the solution by a factor of the whole matrix if the residual has not become small.
-template <typename Solve, typename Matrix>
-MatrixXd surely_corrected(const Solve& solve, const Matrix& J, double norm, const MatrixXd& b, double wanted,
-                          double enough) {
-  constexpr double of_product = 1e-14;
-  MatrixXd x = corrected(solve, J, norm, b, wanted);
-  if ((b - J * x).norm() <= std::max(enough * b.norm(), of_product * norm * x.norm())) return x;
-  return matrices::Lu(J).solve(b);
-}
-
 constexpr double factor_rounding = 1e-14, nearly_rounding = 1e-10;
 constexpr double for_errors = 1e-11;  // enough for error bars, which need J^T
 
@@ -89,32 +61,26 @@ TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims)
   lu_ = matrices::Lu(schur_);
 }
 
-double TangentFactor::rcond() const { return lu_.rcond() * std::min(1.0, lu_.norm()); }
-
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
-  if (short_waves_.empty()) return lu_.solve(b);
-  const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve(f); };
-  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, factor_rounding,
-                          nearly_rounding);
+  const auto solve = [this](const MatrixXd& f) { return lu_.solve(f); };
+  return refined(b, false, solve, factor_rounding, nearly_rounding);
 }
 
 VectorXd TangentFactor::step(const VectorXd& b) const {
-  if (short_waves_.empty()) return lu_.solve(b);
   constexpr double wanted = 1e-6, enough = 1e-3;
-  const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve(f); };
-  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, wanted, enough);
+  return refined(
+      b, false, [this](const MatrixXd& f) { return lu_.solve(f); }, wanted, enough);
 }
 
 MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
-  if (short_waves_.empty()) return lu_.solve_transposed(b);
-  const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve_transposed(f); };
-  return surely_corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), norm_, b,
-                          factor_rounding, nearly_rounding);
+  const auto solve = [this](const MatrixXd& f) { return lu_.solve_transposed(f); };
+  return refined(b, true, solve, factor_rounding, nearly_rounding);
 }
 
 /// Finds the smallest singular values and their vectors by inverse iteration. The number of vectors grows until one of
 /// them is outside the null space, which takes fewer operations than all singular values.
-TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const {
+const TangentFactor::NullSpace& TangentFactor::null_space() const {
+  if (null_space_) return *null_space_;
   const Index n = schur_.rows();
   constexpr double shift = 1e-12;  // makes a singular matrix regular
   constexpr int turns = 3, first = 8;
@@ -131,7 +97,7 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
     x = schur_.transpose() * (schur_ * x).eval();
     largest = std::sqrt(x.norm());
   }
-  const double size = std::max(largest, 1.0), max_null = tolerance * size;
+  const double size = std::max(largest, 1.0), max_null = singular_tangent * size;
   NullSpace result;
   for (Index k = std::min<Index>(first, n);; k = std::min(2 * k, n)) {
     const MatrixXd start = MatrixXd::NullaryExpr(n, k, [&] { return normal(random); });
@@ -151,38 +117,50 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
   MatrixXd lifted = schur_;
   lifted.noalias() += size * result.left * result.right.transpose();
   result.lifted = matrices::Lu(std::move(lifted));
-  return result;
+  return null_space_.emplace(std::move(result));
 }
 
-const TangentFactor::NullSpace& TangentFactor::null_space(double tolerance) const {
-  const auto known = null_spaces_.find(tolerance);
-  return known != null_spaces_.end() ? known->second
-                                     : null_spaces_.emplace(tolerance, find_null_space(tolerance)).first->second;
+MatrixXd TangentFactor::solve_singular(const MatrixXd& b) const {
+  const NullSpace& null = null_space();
+  const auto solve = [&](const MatrixXd& f) { return null.lifted.solve(f - null.left * (null.left.transpose() * f)); };
+  return refined(b, false, solve, factor_rounding, std::nullopt);
 }
 
-MatrixXd TangentFactor::free_motions(double tolerance) const { return extended(null_space(tolerance).right); }
-
-TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double tolerance) const {
-  const NullSpace& null = null_space(tolerance);
-  const auto solve = [&](const MatrixXd& f) -> MatrixXd {
-    return null.lifted.solve(f - null.left * (null.left.transpose() * f));
-  };
-  const MatrixXd free = extended(null.right);
-  if (short_waves_.empty()) return {solve(b), free};
-  return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, factor_rounding), free};
-}
-
-TangentFactor::Singular TangentFactor::solve_singular_transposed(const MatrixXd& b, double tolerance) const {
-  const NullSpace& null = null_space(tolerance);
+MatrixXd TangentFactor::solve_singular_transposed(const MatrixXd& b) const {
+  const NullSpace& null = null_space();
   const auto solve = [&](const MatrixXd& f) -> MatrixXd {
     const MatrixXd x = null.lifted.solve_transposed(f);
     return x - null.left * (null.left.transpose() * x);
   };
-  const MatrixXd free = extended(null.right);
-  if (short_waves_.empty()) return {solve(b), free};
-  return {corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), norm_, b,
-                    for_errors),
-          free};
+  return refined(b, true, solve, for_errors, std::nullopt);
+}
+
+MatrixXd TangentFactor::refined(const MatrixXd& b, bool transposed, const Solve& by_schur, double wanted,
+                                std::optional<double> enough) const {
+  if (short_waves_.empty()) return by_schur(b);
+  constexpr int max_steps = 8;
+  constexpr double falls = 0.5, of_product = 1e-16, of_product_enough = 1e-14;
+  const auto solve = [&](const MatrixXd& f) {
+    return transposed ? by_factor_transposed(f, by_schur) : by_factor(f, by_schur);
+  };
+  const auto residual_of = [&](const MatrixXd& its) -> MatrixXd {
+    if (transposed) return b - J_.transpose() * its;
+    return b - J_ * its;
+  };
+  MatrixXd x = solve(b), residual = residual_of(x);
+  // x is large if J is nearly singular, and then J x has rounding of its own.
+  const auto is_within = [&](double of_b, double of_J) {
+    return residual.norm() <= std::max(of_b * b.norm(), of_J * norm_ * x.norm());
+  };
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < max_steps && !is_within(wanted, of_product) && residual.norm() < falls * before; ++i) {
+    before = residual.norm();
+    x += solve(residual);
+    residual = residual_of(x);
+  }
+  if (!enough || is_within(*enough, of_product_enough)) return x;
+  const matrices::Lu whole(J_);
+  return transposed ? whole.solve_transposed(b) : whole.solve(b);
 }
 
 MatrixXd TangentFactor::extended(const MatrixXd& kept) const {
@@ -194,7 +172,6 @@ MatrixXd TangentFactor::extended(const MatrixXd& kept) const {
   return x;
 }
 
-template <typename Solve>
 MatrixXd TangentFactor::by_factor(const MatrixXd& b, const Solve& solve) const {
   MatrixXd x = b, rest = b(kept_, Eigen::all);
   for (const auto& rim : short_waves_) {
@@ -209,7 +186,6 @@ MatrixXd TangentFactor::by_factor(const MatrixXd& b, const Solve& solve) const {
   return x;
 }
 
-template <typename Solve>
 MatrixXd TangentFactor::by_factor_transposed(const MatrixXd& b, const Solve& solve) const {
   MatrixXd x = b;
   for (const auto& rim : short_waves_)

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
+#include <algorithm>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/matrices/decompositions.hpp"
@@ -12,6 +14,9 @@ namespace fastjoint::stage3 {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// Reciprocal condition, with columns scaled, below which a tangent is singular.
+inline constexpr double singular_tangent = 1e-10;
 
 /// Factor of the tangent J of a joint, (r, r).
 ///
@@ -32,19 +37,13 @@ class TangentFactor {
   [[nodiscard]] MatrixXd solve_transposed(const MatrixXd& b) const;
   /// Reciprocal condition number of the Schur complement, which is singular if J is; times its norm if that is below 1,
   /// since J is of order 1 and a small one counts as singular.
-  [[nodiscard]] double rcond() const;
+  [[nodiscard]] double rcond() const { return lu_.rcond() * std::min(1.0, lu_.norm()); }
   /// Null space of a singular J, (r, n), n >= 1.
-  /// @param tolerance Singular values up to this count as zero, relative to the largest of the Schur complement or to 1
-  /// if that is more.
-  [[nodiscard]] MatrixXd free_motions(double tolerance) const;
-
-  /// Least-squares solution x of J x = b, (r, columns), and the null space of J, (r, n).
-  struct Singular {
-    MatrixXd x, free;
-  };
-  [[nodiscard]] Singular solve_singular(const MatrixXd& b, double tolerance) const;
-  /// The same for J^T x = b; `free` is the null space of J here too.
-  [[nodiscard]] Singular solve_singular_transposed(const MatrixXd& b, double tolerance) const;
+  [[nodiscard]] MatrixXd free_motions() const { return extended(null_space().right); }
+  /// Least-squares solution x of J x = b for a singular J, (r, columns).
+  [[nodiscard]] MatrixXd solve_singular(const MatrixXd& b) const;
+  /// The same for J^T x = b.
+  [[nodiscard]] MatrixXd solve_singular_transposed(const MatrixXd& b) const;
   /// J.
   [[nodiscard]] const MatrixXd& matrix() const { return J_; }
   /// Number of rows of the Schur complement.
@@ -58,19 +57,23 @@ class TangentFactor {
     MatrixXd by_long;              ///< (short, long) inverse of the block times their coupling to the long waves
     MatrixXd on_kept;              ///< (kept, short) coupling of the kept rows to them
   };
-  /// Solutions with the factor only, without refinement; `solve` solves with the Schur complement.
-  template <typename Solve>
+  /// Solves with the Schur complement, or with its transpose.
+  using Solve = std::function<MatrixXd(const MatrixXd&)>;
+  /// Solutions with the factor only, without refinement.
   [[nodiscard]] MatrixXd by_factor(const MatrixXd& b, const Solve& solve) const;
-  template <typename Solve>
   [[nodiscard]] MatrixXd by_factor_transposed(const MatrixXd& b, const Solve& solve) const;
+  /// The same, refined until the residual is rounding or does not fall any more.
+  /// @param wanted Residual over b. @param enough The same, above which a factor of the whole J is used, if given.
+  [[nodiscard]] MatrixXd refined(const MatrixXd& b, bool transposed, const Solve& by_schur, double wanted,
+                                 std::optional<double> enough) const;
 
-  /// Null spaces of the Schur complement, and a regular matrix that equals it on the complement of them.
+  /// Null spaces of the Schur complement, and a regular matrix that equals it on the complement of them. Singular
+  /// values up to singular_tangent times the largest, or times 1 if that is more, count as zero.
   struct NullSpace {
     MatrixXd right, left;  ///< (kept, n) orthonormal; null spaces of the matrix and of its transpose
     matrices::Lu lifted;   ///< of the matrix plus left right^T times its norm
   };
-  [[nodiscard]] const NullSpace& null_space(double tolerance) const;
-  [[nodiscard]] NullSpace find_null_space(double tolerance) const;
+  [[nodiscard]] const NullSpace& null_space() const;
   /// Motions of all unknowns, the short waves included, by those of the kept unknowns.
   [[nodiscard]] MatrixXd extended(const MatrixXd& kept) const;
 
@@ -79,8 +82,8 @@ class TangentFactor {
   std::vector<Index> kept_;  ///< planes and long waves
   std::vector<ShortWaves> short_waves_;
   MatrixXd schur_;
-  matrices::Lu lu_;                                  ///< of schur_
-  mutable std::map<double, NullSpace> null_spaces_;  ///< found so far, by tolerance
+  matrices::Lu lu_;                              ///< of schur_
+  mutable std::optional<NullSpace> null_space_;  ///< if it has been found
 };
 
 }  // namespace fastjoint::stage3

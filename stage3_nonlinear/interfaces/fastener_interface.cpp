@@ -8,12 +8,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Unit vector along v; the first axis where v = 0.
-VectorXd along(const VectorXd& v) {
-  const double length = v.norm();
-  return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));
-}
-
 Branch branch(const Contact& contact, const VectorXd& c) {
   const double length = c.norm(), k = contact.stiffness;
   return contact.is_pulled_open(c) ? Branch::open(length, k) : contact.law->at(length, k, contact.clearance);
@@ -48,6 +42,11 @@ std::vector<Corner> corners_of(const Contact& contact) {
 
 }  // namespace
 
+VectorXd along(const VectorXd& v) {
+  const double length = v.norm();
+  return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));
+}
+
 FastenerInterface::FastenerInterface(std::vector<Contact> planes, Place place)
     : planes_(std::move(planes)), place_(std::move(place)) {
   for (const Contact& plane : planes_) branches_.push_back(plane.law->branches(plane.clearance));
@@ -74,13 +73,6 @@ void FastenerInterface::balance() {
       const double change = transferred / (1 + friction.friction_ratio());
       for (double* each : {&friction.resultant, &friction.peak, &friction.bearing, &friction.across}) *each *= change;
     }
-}
-
-Index FastenerInterface::friction_at(Index hole, Index direction) const {
-  const auto found = std::ranges::find_if(place_.friction_holes, [&](const FrictionHole& each) {
-    return each.hole == hole && each.direction == direction;
-  });
-  return found == place_.friction_holes.end() ? -1 : found - place_.friction_holes.begin();
 }
 
 bool FastenerInterface::has_case(Index hole) const {
@@ -123,7 +115,6 @@ VectorXd FastenerInterface::friction(const VectorXd& F) const {
 }
 
 MatrixXd FastenerInterface::friction_by_force(const VectorXd& F) const {
-  if (place_.n_columns == 0) return {};
   MatrixXd slopes = MatrixXd::Zero(place_.n_columns, F.size());
   const Index a = place_.n_directions;
   for (Index i = 0; i < std::ssize(sides_); ++i) {
@@ -145,21 +136,16 @@ MatrixXd FastenerInterface::friction_by_force(const VectorXd& F) const {
 }
 
 std::vector<Slider> FastenerInterface::sliders(const History& history, Index plane) const {
-  const Index a = place_.n_directions;
-  std::vector<Slider> result(branches_[plane].size(), Slider{PlaneVector::Zero(a), PlaneVector::Zero(a)});
-  if (history.size() == 0) return result;
-  Index at = 0;
-  for (Index j = 0; j < plane; ++j) at += std::ssize(branches_[j]) * (2 * a + 1);
-  for (Slider& slider : result) {
-    slider = {history.segment(at, a), history.segment(at + a, a), history[at + 2 * a]};
-    at += 2 * a + 1;
-  }
-  return result;
+  const Index a = place_.n_directions, n = std::ssize(branches_[plane]);
+  if (history.empty()) return std::vector(n, Slider{PlaneVector::Zero(a), PlaneVector::Zero(a)});
+  auto first = history.begin();
+  for (Index j = 0; j < plane; ++j) first += std::ssize(branches_[j]);
+  return {first, first + n};
 }
 
 std::optional<RememberedState> FastenerInterface::remembered_state(const VectorXd& c, const History& history,
                                                                    Index plane) const {
-  if (branches_[plane].empty() || history.size() == 0) return std::nullopt;
+  if (branches_[plane].empty() || history.empty()) return std::nullopt;
   const auto before = sliders(history, plane);
   const auto at_rest = [](const Slider& slider) { return slider.set.isZero(0); };
   if (std::ranges::all_of(before, at_rest)) return std::nullopt;  // then the law's own curve holds
@@ -175,16 +161,13 @@ RememberedState FastenerInterface::state_from(const std::vector<Slider>& before,
 
 History FastenerInterface::commit(const VectorXd& c, const History& history) const {
   const Index a = place_.n_directions;
-  std::vector<double> next;
+  History next;
   for (Index j = 0; j < std::ssize(planes_); ++j) {
     if (branches_[j].empty()) continue;
-    for (const Slider& slider : state_from(sliders(history, j), c.segment(j * a, a), j).sliders) {
-      next.insert(next.end(), slider.set.begin(), slider.set.end());
-      next.insert(next.end(), slider.motion.begin(), slider.motion.end());
-      next.push_back(slider.dissipated);
-    }
+    const auto of_plane = state_from(sliders(history, j), c.segment(j * a, a), j).sliders;
+    next.insert(next.end(), of_plane.begin(), of_plane.end());
   }
-  return History::Map(next.data(), std::ssize(next));
+  return next;
 }
 
 std::vector<PlaneMemory> FastenerInterface::memories(const History& history) const {
@@ -225,25 +208,24 @@ Response FastenerInterface::respond(const VectorXd& c, const History& history) c
         along_and_across(e, on.ddelta, length > 0 ? on.delta / length : on.ddelta);
   }
   response.Lambda = friction(response.F);
-  response.dLambda = place_.n_columns == 0 ? MatrixXd(0, n) : MatrixXd(friction_by_force(response.F) * response.dF);
+  response.dLambda = friction_by_force(response.F) * response.dF;
   return response;
 }
 
 /// Adds the small stiffness to open and yielded fasteners: without it the Jacobian is singular if a plate has no other
 /// constraint.
-void FastenerInterface::add_trace(double trace, Response& response) const {
+void FastenerInterface::add_small_stiffness(double small, Response& response) const {
   const Index a = place_.n_directions;
   for (Index j = 0; j < std::ssize(planes_); ++j) {
     auto dF = response.dF.block(j * a, j * a, a, a), ddelta = response.ddelta.block(j * a, j * a, a, a);
     const Contact& contact = planes_[j];
-    const VectorXd e = response.delta.segment(j * a, a).isZero(0) ? VectorXd(VectorXd::Unit(a, 0))
-                                                                  : along(response.delta.segment(j * a, a));
+    const VectorXd e = along(response.delta.segment(j * a, a));
     const auto raise = [&](const VectorXd& direction) {
       const double slope = direction.dot(dF * direction);
-      if (std::abs(slope) >= trace) return;
-      dF += (trace - slope) * direction * direction.transpose();
+      if (std::abs(slope) >= small) return;
+      dF += (small - slope) * direction * direction.transpose();
       if (!contact.law->rises()) return;
-      const double moved = (1 - trace) / contact.stiffness - direction.dot(ddelta * direction);
+      const double moved = (1 - small) / contact.stiffness - direction.dot(ddelta * direction);
       ddelta += moved * direction * direction.transpose();
     };
     raise(e);
@@ -299,16 +281,12 @@ void FastenerInterface::add_law_changes(const VectorXd& c, const MatrixXd& by_fo
     if (here.isZero(0) || contact.is_pulled_open(here)) continue;
     const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
     for (Index i = 0; i < std::ssize(slopes); ++i) {
-      Change change{i == 0 ? NumberKind::clearance : NumberKind::law,
-                    place_.first_plane + j,
-                    std::max<Index>(i - 1, 0),
-                    VectorXd::Zero(c.size()),
-                    VectorXd::Zero(c.size()),
-                    VectorXd::Zero(place_.n_columns)};
-      change.F.segment(j * a, a) = slopes[i].F * e;
-      change.delta.segment(j * a, a) = slopes[i].delta * e;
-      if (place_.n_columns > 0) change.Lambda = by_force * change.F;
-      result.push_back(std::move(change));
+      VectorXd F = VectorXd::Zero(c.size()), delta = F;
+      F.segment(j * a, a) = slopes[i].F * e;
+      delta.segment(j * a, a) = slopes[i].delta * e;
+      const NumberKind kind = i == 0 ? NumberKind::clearance : NumberKind::law;
+      const VectorXd Lambda = by_force.rows() > 0 ? VectorXd(by_force * F) : VectorXd();
+      result.push_back({kind, place_.first_plane + j, std::max<Index>(i - 1, 0), F, delta, Lambda});
     }
   }
 }

@@ -57,7 +57,7 @@ class FastenerInterface : public Interface {
     Index n_directions = 1;
     bool law_includes_friction = false;          ///< the laws give the transferred load, not the bearing force alone
     std::vector<double> mu{};                    ///< (h) of each hole
-    std::vector<FrictionHole> friction_holes{};  ///< empty without friction
+    std::vector<FrictionHole> friction_holes{};  ///< of each hole, directions inner; empty without friction
     Index n_columns = 0;                         ///< of friction
   };
 
@@ -68,7 +68,7 @@ class FastenerInterface : public Interface {
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
   [[nodiscard]] History commit(const VectorXd& c, const History& history) const override;
   [[nodiscard]] std::vector<PlaneMemory> memories(const History& history) const override;
-  void add_trace(double trace, Response& response) const override;
+  void add_small_stiffness(double small, Response& response) const override;
   [[nodiscard]] MatrixXd friction_by_force(const VectorXd& F) const override;
   [[nodiscard]] std::vector<std::vector<Corner>> corners() const override;
   [[nodiscard]] double position(const VectorXd& c, Index entry) const override;
@@ -92,7 +92,9 @@ class FastenerInterface : public Interface {
   /// True if the hole has cosine friction; a rim of contact has none, whatever its coefficient.
   [[nodiscard]] bool has_case(Index hole) const;
   /// Index in Place::friction_holes, or -1.
-  [[nodiscard]] Index friction_at(Index hole, Index direction) const;
+  [[nodiscard]] Index friction_at(Index hole, Index direction) const {
+    return place_.friction_holes.empty() ? -1 : hole * place_.n_directions + direction;
+  }
   void add_law_changes(const VectorXd& c, const MatrixXd& by_force, std::vector<Change>& result) const;
   [[nodiscard]] Change change_by_mu(Index hole, const VectorXd& F) const;
 

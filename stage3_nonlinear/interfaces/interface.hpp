@@ -4,15 +4,17 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "stage3_nonlinear/interfaces/plane_memory.hpp"
+
 namespace fastjoint::stage3 {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Internal variables of an interface at a state of the path; empty before its first increment, and of one that
-/// remembers nothing.
-using History = VectorXd;
+/// Internal variables of an interface at a state of the path, those of its sliders; empty before its first increment,
+/// and of one that remembers nothing.
+using History = std::vector<Slider>;
 
 /// Forces and displacements of an interface at its n contact coordinates c, with derivatives by c.
 struct Response {
@@ -51,6 +53,9 @@ struct Change {
   VectorXd F, delta, Lambda;
 };
 
+/// Unit vector along v; the first axis where v = 0.
+[[nodiscard]] VectorXd along(const VectorXd& v);
+
 /// Constitutive relation between bodies of a joint at some rows of its equations: it maps contact coordinates to
 /// forces, relative displacements and amplitudes of friction.
 class Interface {
@@ -68,7 +73,7 @@ class Interface {
   /// What each of its planes remembers; empty of an interface without planes.
   [[nodiscard]] virtual std::vector<PlaneMemory> memories(const History& /*history*/) const { return {}; }
   /// Adds a small stiffness where the slopes of a response vanish (docs/theory.md, section 8.5).
-  virtual void add_trace(double trace, Response& response) const = 0;
+  virtual void add_small_stiffness(double small, Response& response) const = 0;
   /// Derivatives of Lambda by F, (t, n), on the sides that bear under F, if friction depends only on the forces; else
   /// empty.
   [[nodiscard]] virtual MatrixXd friction_by_force(const VectorXd& /*F*/) const { return {}; }

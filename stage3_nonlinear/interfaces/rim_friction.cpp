@@ -31,7 +31,7 @@ MatrixXd signed_products(const rim::Harmonics& pressures, const Touching& at, do
 
 }  // namespace
 
-RimFriction rim_friction(const RimContact& rim, const Touching& at, const VectorXd& m) {
+RimFriction rim_friction(const CompressionOnlyRim& rim, const Touching& at, const VectorXd& m) {
   const auto& pressures = rim.pressures();
   MatrixXd by_pressure(2, rim.size()), by_shear(2, pressures.n_shears());
   by_pressure << pressures.push(0).transpose(), pressures.push(1).transpose();

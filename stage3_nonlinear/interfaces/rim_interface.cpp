@@ -15,7 +15,7 @@ double sign_of(Index entry) { return entry == 0 ? 1 : -1; }
 
 Response RimInterface::respond(const VectorXd& c, const History& /*history*/) const {
   const Index n = size(), t = n_friction();
-  const RimContact& contact = rim_->contact();
+  const CompressionOnlyRim& contact = rim_->contact();
   if (!c.allFinite()) {
     const VectorXd none = VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
     return {none, none, VectorXd::Zero(t), MatrixXd::Identity(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(t, n)};
@@ -35,24 +35,24 @@ Response RimInterface::respond(const VectorXd& c, const History& /*history*/) co
   return response;
 }
 
-void RimInterface::add_trace(double trace, Response& response) const {
-  response.ddelta *= 1 - trace;
-  response.dF *= 1 - trace;
-  response.dF.diagonal().array() += trace;
+void RimInterface::add_small_stiffness(double small, Response& response) const {
+  response.ddelta *= 1 - small;
+  response.dF *= 1 - small;
+  response.dF.diagonal().array() += small;
 }
 
 /// The position of a bolt with clearance that carries no load is indeterminate, so that a small force must be exceeded
 /// for contact.
 std::vector<std::vector<Corner>> RimInterface::corners() const {
   constexpr double min_depth = 1e-6;  // of the gap
-  const RimContact& contact = rim_->contact();
+  const CompressionOnlyRim& contact = rim_->contact();
   return {{{min_depth * contact.stiffness() * std::max(contact.gap(), 0.0), CornerKind::touch}},
           {{0, CornerKind::part}}};
 }
 
 /// The largest depth of the disc, or minus the smallest, times the stiffness.
 double RimInterface::position(const VectorXd& c, Index entry) const {
-  const RimContact& contact = rim_->contact();
+  const CompressionOnlyRim& contact = rim_->contact();
   const double sign = sign_of(entry);
   const VectorXd& w = rim_->solve(c).w;
   return sign * contact.stiffness() * contact.depth(w, contact.deepest(w, sign));
@@ -60,14 +60,10 @@ double RimInterface::position(const VectorXd& c, Index entry) const {
 
 /// At an extremum the derivative by the angle is zero.
 VectorXd RimInterface::slope(const VectorXd& c, Index entry) const {
-  const RimContact& contact = rim_->contact();
+  const CompressionOnlyRim& contact = rim_->contact();
   const double sign = sign_of(entry);
   const RimSolution& its = rim_->solve(c);
   return sign * contact.stiffness() * its.w_by_c.transpose() * contact.pressures().at(contact.deepest(its.w, sign));
-}
-
-VectorXd RimInterface::coordinates(const VectorXd& F) const {
-  return (1 + rim_->k() / rim_->contact().stiffness()) * F;
 }
 
 /// Shears are proportional to the coefficient if the rim slips, and independent of it if the rim sticks. The gap enters
@@ -76,7 +72,7 @@ std::vector<Change> RimInterface::changes(const VectorXd& c, const Response& res
   const double k = rim_->k();
   std::vector<Change> result{
       {NumberKind::gap, at_, 0, -k * response.dF.col(0), response.dF.col(0), -k * response.dLambda.col(0)}};
-  const RimContact& contact = rim_->contact();
+  const CompressionOnlyRim& contact = rim_->contact();
   if (n_friction() == 0 || contact.mu() == 0) return result;
   const RimSolution& its = rim_->solve(c);
   const VectorXd none = VectorXd::Zero(size());

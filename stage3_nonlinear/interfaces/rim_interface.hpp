@@ -20,12 +20,14 @@ class RimInterface : public Interface {
   [[nodiscard]] Index size() const override { return rim_->n_long(); }
   [[nodiscard]] Index n_friction() const override { return has_friction_ ? rim_->waves().n_long_shears : 0; }
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
-  void add_trace(double trace, Response& response) const override;
+  void add_small_stiffness(double small, Response& response) const override;
   [[nodiscard]] std::vector<std::vector<Corner>> corners() const override;
   [[nodiscard]] double position(const VectorXd& c, Index entry) const override;
   [[nodiscard]] VectorXd slope(const VectorXd& c, Index entry) const override;
   /// The coordinates of linear springs, which act in tension too.
-  [[nodiscard]] VectorXd coordinates(const VectorXd& F) const override;
+  [[nodiscard]] VectorXd coordinates(const VectorXd& F) const override {
+    return (1 + rim_->k() / rim_->contact().stiffness()) * F;
+  }
   [[nodiscard]] std::vector<Change> changes(const VectorXd& c, const Response& response) const override;
 
  private:

@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/matrices/decompositions.hpp"
@@ -31,7 +30,7 @@ double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves
   return stiffness;
 }
 
-RimProblem::RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> waves, double area, double k)
+RimProblem::RimProblem(CompressionOnlyRim contact, std::shared_ptr<const ShortWaves> waves, double area, double k)
     : contact_(std::move(contact)),
       waves_(std::move(waves)),
       area_(area),

@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
-#include "stage3_nonlinear/interfaces/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/compression_only_rim.hpp"
 #include "stage3_nonlinear/interfaces/rim_friction.hpp"
 #include "stage3_nonlinear/model/contact_rims.hpp"
 
@@ -37,9 +37,9 @@ struct RimSolution {
 class RimProblem {
  public:
   /// @param area Area of the rim, length^2. @param k Stiffness of the coordinates, force / length.
-  RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> waves, double area, double k);
+  RimProblem(CompressionOnlyRim contact, std::shared_ptr<const ShortWaves> waves, double area, double k);
 
-  [[nodiscard]] const RimContact& contact() const { return contact_; }
+  [[nodiscard]] const CompressionOnlyRim& contact() const { return contact_; }
   [[nodiscard]] const ShortWaves& waves() const { return *waves_; }
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double k() const { return k_; }
@@ -79,7 +79,7 @@ class RimProblem {
   /// Derivative of the residual by w, (n, n), dimensionless.
   [[nodiscard]] MatrixXd jacobian(const State& at) const;
 
-  RimContact contact_;
+  CompressionOnlyRim contact_;
   std::shared_ptr<const ShortWaves> waves_;
   double area_, k_;
   bool is_diagonal_;                                    ///< M_k, as in an isotropic sheet

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "common/infinite.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Cubic F = x (a0 + a1 x + a2 x^2), x = stretch / last.
 struct Cubic {
@@ -33,7 +32,7 @@ struct Cubic {
 
   /// The x between 0 and `end` at which the slope, a parabola, has its minimum: an end or the parabola's vertex.
   [[nodiscard]] double min_slope_at(double end) const {
-    double worst = end < infinity && slope(end) < slope(0) ? end : 0;
+    double worst = end < infinite && slope(end) < slope(0) ? end : 0;
     const double vertex = a[2] != 0 ? -a[1] / (3 * a[2]) : 0;
     if (vertex > 0 && vertex < end && slope(vertex) < slope(worst)) worst = vertex;
     return worst;
@@ -42,7 +41,7 @@ struct Cubic {
   /// The x at which the force rises again after it has fallen; infinite if it never does.
   [[nodiscard]] double second_rise() const {
     const double root = a[1] * a[1] - 3 * a[0] * a[2];
-    return a[2] > 0 && root > 0 ? (std::sqrt(root) - a[1]) / (3 * a[2]) : infinity;
+    return a[2] > 0 && root > 0 ? (std::sqrt(root) - a[1]) / (3 * a[2]) : infinite;
   }
 };
 
@@ -59,9 +58,9 @@ class CubicLaw final : public Law {
         x_{delta[0] / last_, delta[1] / last_, delta[2] / last_},
         cubic_(Cubic::through(x_, F)) {
     const bool rises_far_out = cubic_.a[2] > 0 || (cubic_.a[2] == 0 && cubic_.a[1] >= 0);
-    rises_ = rises_far_out && cubic_.slope(cubic_.min_slope_at(infinity)) >= 0;
+    rises_ = rises_far_out && cubic_.slope(cubic_.min_slope_at(infinite)) >= 0;
     const double valley = cubic_.second_rise();
-    end_ = !rises_ && valley > 1 ? valley : infinity;
+    end_ = !rises_ && valley > 1 ? valley : infinite;
   }
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {

@@ -44,7 +44,7 @@ class TableLaw final : public Law {
     for (std::size_t i = 0; i + 1 < x_.size(); ++i)
       for (int part = 0; part <= parts; ++part)
         if (const double x = x_[i] + (x_[i + 1] - x_[i]) * part / parts; x > yields_at_)
-          unloads_ = std::max(unloads_, steeper * force_and_slope(x)[1]);
+          unloads_ = std::max(unloads_, steeper * force_and_slope(x).slope);
   }
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
@@ -73,7 +73,7 @@ class TableLaw final : public Law {
   }
 
   [[nodiscard]] double max_force() const override {
-    return force_and_slope(x_.back())[1] > 0 ? std::numeric_limits<double>::infinity() : F_.back();
+    return force_and_slope(x_.back()).slope > 0 ? std::numeric_limits<double>::infinity() : F_.back();
   }
 
   [[nodiscard]] double last_delta(double clearance) const override { return clearance + x_.back(); }
@@ -97,8 +97,7 @@ class TableLaw final : public Law {
                    const double stretch = x - clearance;
                    if (stretch < 0) return Rise{0, 0};
                    if (stretch > yields_at_) return Rise{F_yield_ + k * (stretch - yields_at_), k};
-                   const auto [F, slope] = force_and_slope(stretch);
-                   return Rise{F, slope};
+                   return force_and_slope(stretch);
                  },
              .backstress =
                  [=, this](double set) {
@@ -126,7 +125,7 @@ class TableLaw final : public Law {
     return rising_root(excess, 0, x_.back());
   }
 
-  [[nodiscard]] std::array<double, 2> force_and_slope(double x) const {
+  [[nodiscard]] Rise force_and_slope(double x) const {
     const double in_range = std::min(x, x_.back());
     const double F = gsl_interp_eval(spline_.get(), x_.data(), F_.data(), in_range, nullptr);
     const double slope = gsl_interp_eval_deriv(spline_.get(), x_.data(), F_.data(), in_range, nullptr);

@@ -32,7 +32,7 @@ struct PlateDegrees {
 };
 
 /// A plate at one degree p. Its unknowns u are the displacements of its m discs, hole after hole, those of its e rigid
-/// externals, and the k contact moments of the rims with compression-only springs (RimContact).
+/// externals, and the k contact moments of the rims with compression-only springs (CompressionOnlyRim).
 ///
 /// The external forces in equilibrium with them are S u + R Lambda + T f (docs/theory.md, section 4). S does not hold
 /// the springs of a rim of contact: the force that they transmit is minus the force on its moments.

@@ -23,7 +23,7 @@ struct LapSheet {
 std::optional<LapSheet> loaded_sheet(const PlateModel& plate, const PlateState& state, int axis) {
   LapSheet found;
   for (Index i = 0; i < std::ssize(state.rims); ++i) {
-    const RimState& rim = state.rims[i];
+    const HoleState& rim = state.rims[i];
     const double gross = rim.gross_concentration > 0 ? rim.peak_hoop / rim.gross_concentration : 0;
     if (rim.peak_hoop > found.peak) found.peak = rim.peak_hoop, found.hole = plate.stresses.rim_hole[i];
     if (!std::isfinite(gross) || !rim.in_tension || gross <= found.gross) continue;

@@ -19,7 +19,7 @@ namespace {
 /// A kind of warning about rims, with its measure for a rim, 0 or NaN if there is no reason for it, and its text.
 struct RimDoubt {
   const char* code;
-  double (*measure)(const RimState&, bool has_clearance);
+  double (*measure)(const HoleState&, bool has_clearance);
   const char* text;  ///< {at} is the worst hole with its increment and the number of others; see rim_warnings
 };
 
@@ -27,40 +27,40 @@ constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing 
 constexpr double allowed_against = 20;                        // of friction against the slip, degrees
 
 constexpr std::array<RimDoubt, 7> doubts = {{
-    {"springs-wrong-arc", [](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
+    {"springs-wrong-arc", [](const HoleState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
      "the springs of {at} are in tension: they are on the arc that does not bear under these loads; give the hole's "
      "spring the other \"arc\" in PLATE.json"},
     {"springs-pull",
-     [](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
+     [](const HoleState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
      "the springs all around {at} have a tension of up to {pull:.4g} {unit}, with a bearing stress of {stress:.4g}: a "
      "fastener cannot pull on the rim, and hoop peaks are too low; give the hole's spring \"compression_only\": true "
      "in "
      "PLATE.json"},
     {"hole-filled",
-     [](const RimState& rim, bool has_clearance) {
+     [](const HoleState& rim, bool has_clearance) {
        return has_clearance && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0;
      },
      "a fastener with a clearance fills {at}, whose springs act all around: the sheet is too stiff and its hoop "
      "peak, {peak:.4g} {unit}, too low; give the hole's spring \"compression_only\": true in PLATE.json, and the "
      "fastener a \"gap\" instead of \"clearance\""},
     {"kt-below-one",
-     [](const RimState& rim, bool) {
+     [](const HoleState& rim, bool) {
        return rim.in_tension && rim.net_concentration > 0 && rim.pull > 0 ? 1 - rim.net_concentration : 0;
      },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
      "springs pull on its rim; give the hole's spring \"compression_only\": true in PLATE.json"},
     {"disc-held-across",
-     [](const RimState& rim, bool) { return rim.across_ratio > allowed_across ? std::abs(rim.across) : 0; },
+     [](const HoleState& rim, bool) { return rim.across_ratio > allowed_across ? std::abs(rim.across) : 0; },
      "the {axis} displacement of the disc of {at} is fixed, with a reaction of {across:.4g} {force} next to a bearing "
      "force of {bearing:.4g}, which no other part of the joint carries; let the discs move: \"disc_directions\": "
      "[\"x\", \"y\"] in "
      "all PLATE.json"},
     {"friction-against-slip",
-     [](const RimState& rim, bool) { return rim.against_slip > allowed_against ? rim.against_slip : 0; },
+     [](const HoleState& rim, bool) { return rim.against_slip > allowed_against ? rim.against_slip : 0; },
      "friction acts against the slip that it makes on {against:.3g} degrees of the contact at {at}: it is "
      "assumed to slip everywhere, but in reality sticks there; the effect on the loads is small, but the peak hoop "
      "stress {peak:.4g} {unit} is uncertain: compare it with one without friction, and take the larger"},
-    {"friction-off-axes", [](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
+    {"friction-off-axes", [](const HoleState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
      "friction acts off the axes, by its components along x and y, at {at}: the loads are right, but peak hoop "
      "stresses "
      "there may be too low by the part of friction, most of all at 45 degrees"},
@@ -79,12 +79,12 @@ std::vector<program::Warning> rim_warnings(const JointModel& joint, const Parame
   for (const auto& doubt : doubts) {
     double largest = 0;
     std::string at;
-    const RimState* worst = nullptr;
+    const HoleState* worst = nullptr;
     std::set<std::string> holes;
     for (Index step = 0; step < std::ssize(states); ++step)
       for (Index i = 0; i < std::ssize(joint.plates); ++i)
         for (Index rim = 0; rim < std::ssize(states[step].plates[i].rims); ++rim) {
-          const RimState& state = states[step].plates[i].rims[rim];
+          const HoleState& state = states[step].plates[i].rims[rim];
           const std::string hole = joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim];
           const double measure = doubt.measure(state, with_clearance.contains(hole));
           if (measure > 0) holes.insert(hole);

@@ -175,7 +175,7 @@ std::string rim_table(const JointModel& joint, const JointState& state, const fo
                {"", stress, force, stress, "", "", "", "", "", force}});
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
-      const RimState& at = state.plates[i].rims[rim];
+      const HoleState& at = state.plates[i].rims[rim];
       const double by_bearing = result.plates[i].columns["rim/bearing_concentration"](step, rim);
       const bool sections = HoleSections(joint.plates[i].stresses, rim).number() > 0;
       const auto known = [](double value, bool is_known) { return is_known ? value + 0.0 : NAN; };

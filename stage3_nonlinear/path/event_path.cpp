@@ -252,15 +252,10 @@ class Search {
 
 LoadPath follow_events(const JointEquations& equations, const PathOptions& options) {
   constexpr double at_end = 1 - 1e-10;
-  LoadPath path{.steps = {}, .failure = {}};
+  LoadPath path{.n_increments = 1, .steps = {}, .failure = {}};
   Walk walk(equations, options);
   const ContactCorners corners(equations);
-  path.assembled = walk.assemble();
-  if (!walk.settle()) {
-    path.n_increments = 1;
-    path.failure = walk.failure(0, 0);
-    return path;
-  }
+  if (!walk.start(path)) return path;
   constexpr int intervals = 8;
   std::vector<double> loads;
   for (int i = 1; i <= intervals; ++i) loads.push_back(double(i) / intervals);

@@ -10,11 +10,7 @@ namespace fastjoint::stage3 {
 LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors, const PathOptions& options) {
   LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
   Walk walk(equations, options);
-  path.assembled = walk.assemble();
-  if (!walk.settle()) {
-    path.failure = walk.failure(0, 0);
-    return path;
-  }
+  if (!walk.start(path)) return path;
   const ContactCorners corners(equations);
   Eigen::VectorXi passed = corners.passed(walk.here().c);
   for (Index i = 0; i < std::ssize(load_factors); ++i) {

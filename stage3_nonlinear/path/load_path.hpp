@@ -81,14 +81,10 @@ struct PathStep {
   /// Reference force of residuals: force_scale, or rounding of clearances over the tolerance.
   double scale = 0;
 
-  /// Forces and displacements of all rows of the condensed system, (r).
-  [[nodiscard]] VectorXd all_F() const { return joined(F, rim_F); }
-  [[nodiscard]] VectorXd all_delta() const { return joined(delta, moments); }
-
- private:
-  static VectorXd joined(const VectorXd& planes, const VectorXd& rims) {
-    VectorXd all(planes.size() + rims.size());
-    all << planes, rims;
+  /// Displacements of all rows of the condensed system, (r).
+  [[nodiscard]] VectorXd all_delta() const {
+    VectorXd all(delta.size() + moments.size());
+    all << delta, moments;
     return all;
   }
 };

@@ -16,7 +16,7 @@ double force_scale(const JointEquations& equations, double load_factor) {
   constexpr double of_gaps = 1e-4;  // rounding of their displacements and of sets is far below the tolerance times this
   const double load = equations.rigid_forces(load_factor).lpNorm<Eigen::Infinity>();
   const double scale = std::max({load, of_gaps * std::max(equations.force_of_gaps(), equations.force_of_sets()),
-                                 load == 0 ? equations.force_of_interference() : 0});
+                                 load == 0 ? equations.force_of_gaps(true) : 0});
   return scale > 0 ? scale : 1;
 }
 
@@ -30,10 +30,6 @@ Walk::Walk(const JointEquations& equations, const PathOptions& options)
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   rounding_ =
       rounding * std::max({equations.force_of_clearances(), equations.force_of_gaps(), equations.force_of_offsets()});
-}
-
-bool Walk::is_small(double residual) const {
-  return residual <= std::max(options_.solver.tolerance * scale_, rounding_);
 }
 
 bool Walk::reach(double target) {
@@ -125,26 +121,29 @@ bool Walk::record(LoadPath& path, std::vector<ContactEvent> events) {
   return false;
 }
 
-bool Walk::settle() {
-  if (!equations_.remembers() || (equations_.starts_unloaded() && equations_.history.empty())) return true;
-  if (!reach(0)) return false;
-  equations_.commit(here_.c);
-  return true;
+bool Walk::start(LoadPath& path) {
+  const bool unloaded = equations_.starts_unloaded();
+  if (unloaded && equations_.has_interference() && reach(0)) path.assembled = here_.c;
+  if (!equations_.remembers() || (unloaded && equations_.history.empty())) return true;
+  const bool reached = reach(0);
+  if (reached)
+    equations_.commit(here_.c);
+  else
+    path.failure = failure(0, 0);
+  return reached;
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) {
+  PathFailure failure{increment,       load_factor, here_.load_factor,   equations_.entry_of(worst_row_),
+                      worst_residual_, {},          locking(load_factor)};
   if (is_known_beyond_limit(load_factor)) {
-    const auto& [factor, planes] = *limit(load_factor);
-    PathFailure failure{increment,       load_factor, here_.load_factor,   planes.front(),
-                        worst_residual_, planes,      locking(load_factor)};
-    failure.limit = std::copysign(factor, load_factor);
-    return failure;
+    failure.level = limit(load_factor)->planes;
+    failure.entry = failure.level.front();
+    failure.limit = std::copysign(limit(load_factor)->factor, load_factor);
+  } else {
+    failure.level = level_planes(equations_, best_.size() > 0 ? best_ : here_.c);
+    failure.ending = ending_ == Ending::converged ? "past the limit load of a law" : text_of(ending_);
   }
-  PathFailure failure{increment,           load_factor,
-                      here_.load_factor,   equations_.entry_of(worst_row_),
-                      worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
-                      locking(load_factor)};
-  failure.ending = ending_ == Ending::converged ? "past the limit load of a law" : text_of(ending_);
   return failure;
 }
 
@@ -185,19 +184,11 @@ bool Walk::guess(double target, int halvings_left) {
   return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
 }
 
-bool Walk::solve_from_here(double target) { return begin(target) || solve_from({here_.c}, target); }
-
-std::optional<VectorXd> Walk::assemble() {
-  if (!equations_.has_interference() || !equations_.starts_unloaded() || !reach(0)) return std::nullopt;
-  return here_.c;
-}
-
 bool Walk::begin(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
   target_ = target;
   scale_ = force_scale(equations_, target);
-  const bool remembers =
-      std::ranges::any_of(equations_.history, [](const History& history) { return history.size() > 0; });
+  const bool remembers = std::ranges::any_of(equations_.history, [](const History& its) { return !its.empty(); });
   if (target != 0 || remembers || equations_.has_interference() || !equations_.starts_unloaded()) return false;
   here_ = {0, VectorXd::Zero(equations_.n_unknowns())};  // the undeformed joint is in exact equilibrium
   return true;

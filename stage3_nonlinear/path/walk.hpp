@@ -30,11 +30,10 @@ class Walk {
   /// Solves at the load factor of a state of the joint with other parameters, starting at its contact coordinates, in
   /// one step; false if that fails.
   bool jump(const Place& from);
-  /// Solves the state at no load of a joint with interference; its contact coordinates, (r), if that succeeds.
-  std::optional<VectorXd> assemble();
-  /// Solves the state at load factor 0 of a joint that remembers and has loads there, of a case before or by its
-  /// sheets' free shapes, and keeps what it has yielded and slipped; false if that fails.
-  bool settle();
+  /// Solves the state at no load of a joint with interference, LoadPath::assembled, then that at load factor 0 of a
+  /// joint that remembers and has loads there, of a case before or by its sheets' free shapes, and keeps what it has
+  /// yielded and slipped; false if the latter fails, which ends the path.
+  bool start(LoadPath& path);
   [[nodiscard]] const Place& here() const { return here_; }
   /// Continues from a solution found elsewhere.
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
@@ -54,11 +53,9 @@ class Walk {
   /// The smaller friction reserve: that of the sides that bear at the last load factor, or of those that would bear
   /// with rigid fasteners without friction.
   [[nodiscard]] std::optional<double> locking(double load_factor) const;
-  /// True if a residual, force, is within the tolerance or within rounding.
-  [[nodiscard]] bool is_small(double residual) const;
   bool follow(double target, int halvings_left);
   bool guess(double target, int halvings_left);
-  bool solve_from_here(double target);
+  bool solve_from_here(double target) { return begin(target) || solve_from({here_.c}, target); }
   /// Sets the scale of a try; true if the target is no load, whose solution is known.
   bool begin(double target);
   bool solve_from_guesses(double target);
@@ -74,8 +71,10 @@ class Walk {
   [[nodiscard]] bool is_far_from_balance(const Root& root) const;
   /// Writes one line to PathOptions::log, with the changes since the iterate before, and replaces that one.
   void log_iteration(const Root& root, std::optional<Root>& before) const;
+  /// True if the residual, force, is within the tolerance or within rounding.
   [[nodiscard]] bool converged(const Root& root) const {
-    return root.converged || is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>());
+    return root.converged ||
+           scale_ * root.residual.lpNorm<Eigen::Infinity>() <= std::max(options_.solver.tolerance * scale_, rounding_);
   }
   bool take(const Root& root, double target);
   void note_failure(const Root& root);

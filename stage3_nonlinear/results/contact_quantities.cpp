@@ -12,7 +12,7 @@ namespace {
 double in_degrees(double angle) { return rim::wrapped(angle) / rim::degree; }
 
 /// Arcs of a rim, with those that meet at the start of a whole rim joined to one.
-std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim::AngleRange> arcs) {
+std::vector<rim::AngleRange> joined_arcs(const CompressionOnlyRim& rim, std::vector<rim::AngleRange> arcs) {
   const auto& [highest, start, sweep] = rim.pressures();
   if (!rim.pressures().is_whole() || arcs.size() < 2 || arcs.front().from > start || arcs.back().to < start + sweep)
     return arcs;
@@ -23,7 +23,7 @@ std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim:
 
 /// Contact of a rim at c, in the order of the quantities.
 Eigen::RowVectorXd describe(const RimProblem& problem, const VectorXd& c) {
-  const RimContact& rim = problem.contact();
+  const CompressionOnlyRim& rim = problem.contact();
   const RimSolution& solution = problem.solve(c);
   const auto arcs = joined_arcs(rim, solution.touching.arcs);
   const auto width = [](const rim::AngleRange& arc) { return arc.to - arc.from; };
@@ -76,7 +76,7 @@ formats::RimsAtNoLoad rims_at_no_load(const JointModel& joint, const JointEquati
   formats::RimsAtNoLoad a{VectorXd(g), VectorXd::Zero(g), VectorXd::Zero(g), VectorXd::Constant(g, infinite)};
   for (Index i = 0; i < g; ++i) {
     const RimProblem& problem = *equations.rims[first + i];
-    const RimContact& contact = problem.contact();
+    const CompressionOnlyRim& contact = problem.contact();
     a.gap[i] = contact.gap();
     if (!path.interference) continue;
     const VectorXd w = problem.solve(equations.of_rim(*path.assembled, first + i)).w;

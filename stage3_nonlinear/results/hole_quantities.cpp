@@ -13,20 +13,20 @@ struct HoleQuantity {
   const char* name;
   Dimension dimension;
   const char* meaning;
-  std::function<double(const RimState&)> value;
+  std::function<double(const HoleState&)> value;
   bool needs_section = false;
   h5::Allowed allowed{};
   std::optional<columns::Output> output{};
 };
 
 /// Severity by bearing: peak hoop stress over bearing stress.
-double bearing_concentration(const RimState& hole) {
+double bearing_concentration(const HoleState& hole) {
   constexpr double most = 1000;  // beyond, the peak has nothing to do with the fastener
   return std::abs(hole.peak_hoop) < most * hole.bearing_stress ? hole.peak_hoop / hole.bearing_stress : 0;
 }
 
 const std::vector<HoleQuantity>& all_of_a_hole() {
-  using R = RimState;
+  using R = HoleState;
   using namespace columns;
   static const std::vector<HoleQuantity> all{
       {"bearing_load", force, "bearing force of the fastener on the plate along x", &R::bearing_load},

@@ -66,10 +66,10 @@ Index JointNumbers::column(const Change& change) const {
   return first_gap() + change.at;
 }
 
-std::vector<formats::Slopes> JointNumbers::kinds() const {
+std::vector<formats::NumberColumns> JointNumbers::kinds() const {
   using columns::length, columns::ratio;
   constexpr columns::Dimension by_law{0, 0, "law_unit"};
-  std::vector<formats::Slopes> all{
+  std::vector<formats::NumberColumns> all{
       {"load_factor", "the load factor", ratio, 1},
       {"clearance", "the clearance of each shear plane", length, n_planes},
       {"law", "each number of the laws", by_law, std::ssize(law)},

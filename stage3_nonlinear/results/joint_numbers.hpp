@@ -36,7 +36,7 @@ struct JointNumbers {
   }
   [[nodiscard]] Index column(const Change& change) const;
   /// The kinds of numbers in the order of the columns.
-  [[nodiscard]] std::vector<formats::Slopes> kinds() const;
+  [[nodiscard]] std::vector<formats::NumberColumns> kinds() const;
 };
 [[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const Parameters& parameters);
 

@@ -101,8 +101,8 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, co
   state.friction = VectorXd::Zero(m);
   set_friction(plate, state);
   if (plate.stress_level)
-    state.rims = rim_states(plate.stresses, plate.border, *plate.stress_level, unit_case_coefficients(plate, state),
-                            loaded_discs(plate, state), scale, state.loaded);
+    state.rims = hole_states(plate.stresses, plate.border, *plate.stress_level, unit_case_coefficients(plate, state),
+                             loaded_discs(plate, state), scale, state.loaded);
   state.cracks = crack_state(plate, unit_case_coefficients(plate, state));
   worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
                         (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});

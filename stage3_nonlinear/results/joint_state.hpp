@@ -9,7 +9,7 @@
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/crack_state.hpp"
-#include "stage3_nonlinear/results/rim_state.hpp"
+#include "stage3_nonlinear/results/hole_state.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -26,7 +26,7 @@ struct PlateState {
   VectorXd traction_displacement;  ///< (q) mean along each, length; infinite where friction cases act on the plate
   VectorXd bearing, friction;      ///< (m) resultants of the fasteners' bearing and friction on each disc, force
   // If its matrices hold stresses at the joint's degree: of every hole, and of rims with waves and a closed form.
-  std::vector<RimState> rims = {};
+  std::vector<HoleState> rims = {};
   std::vector<std::optional<LoadedRim>> loaded = {};
   CrackState cracks = {};
   // Resultants of the forces on the plate along x and y, force.

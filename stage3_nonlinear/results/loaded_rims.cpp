@@ -79,7 +79,7 @@ Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contou
 }
 
 /// @param w Waves of the displacement, as many as the rim's.
-ContactLoad::Contour contour_of(const RimContact& rim, const Touching& touching, const RimFriction& friction,
+ContactLoad::Contour contour_of(const CompressionOnlyRim& rim, const Touching& touching, const RimFriction& friction,
                                 const VectorXd& w) {
   ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.excess, friction.direction, {}, friction.slips};
   for (const auto& arc : touching.arcs) contour.ends.insert(contour.ends.end(), {arc.from, arc.to});
@@ -129,12 +129,12 @@ double LoadedRim::against_slip() const {
 }
 
 ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
-  const RimContact& contact = rim.contact();
+  const CompressionOnlyRim& contact = rim.contact();
   const Touching touching = contact.touching(w);
   const RimFriction friction = rim_friction(contact, touching, w);
   rim::Harmonics fewer = contact.pressures();
   fewer.highest = std::max(fewer.highest / 2, 1);
-  const RimContact half(fewer, contact.stiffness(), contact.gap(), contact.mu());
+  const CompressionOnlyRim half(fewer, contact.stiffness(), contact.gap(), contact.mu());
   const VectorXd w_half = w.head(half.size());
   const Touching of_half = half.touching(w_half);
   const VectorXd pressure = contact.forces(touching, w) / rim.area(), shear = friction.forces / rim.area();

@@ -26,7 +26,7 @@ std::vector<PeakHole> holes_with_peaks(const JointModel& joint, const JointState
     for (Index at = 0; at < std::ssize(state.plates[i].rims); ++at)
       for (Index rim = 0; rim < std::ssize(plate.waves); ++rim)
         if (plate.waves[rim].hole == plate.stresses.rim_hole[at] && plate.waves[rim].has_closed_form()) {
-          const RimState& its = state.plates[i].rims[at];
+          const HoleState& its = state.plates[i].rims[at];
           holes.push_back({i, rim, its.peak_angle * rim::degree, std::abs(its.peak_hoop) > 0});
         }
   }

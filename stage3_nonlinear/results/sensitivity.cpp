@@ -10,7 +10,8 @@ MatrixXd load_changes(const JointNumbers& numbers, const SolvedPoint& point) {
   const auto& columns = equations.system->load_columns;
   MatrixXd changes = MatrixXd::Zero(std::ssize(columns), numbers.n_derivatives());
   changes.col(0) = equations.load_rates(point.load_factor());
-  const VectorXd acting = equations.active_columns(point.load_factor());
+  const VectorXd acting =
+      equations.of_active_columns(point.load_factor(), VectorXd::Ones(equations.parameters.load.size()));
   for (Index i = 0; i < std::ssize(columns); ++i)
     changes(i, numbers.of_load[columns[i].load]) = point.load_factor() * acting[i];
   return changes;

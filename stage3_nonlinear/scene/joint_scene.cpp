@@ -187,18 +187,19 @@ LoadScene read_load(const Value& value, const JointScene& scene) {
   } else {
     load.external = read_reference(external, scene, allowed);
   }
-  const auto force = value.find("force"), displacement = value.find("displacement"), moment = value.find("moment");
-  const int n_given = int{force.has_value()} + int{displacement.has_value()} + int{moment.has_value()};
-  if (n_given != 1)
-    value.fail(n_given > 1 ? "more than one of \"force\", \"displacement\" and \"moment\""
-                           : "none of \"force\", \"displacement\" and \"moment\"",
-               "exactly one of them");
-  load.is_displacement = displacement.has_value();
-  load.is_moment = moment.has_value();
-  if (!force && !load.tied.empty())
-    (displacement ? *displacement : *moment)
-        .fail("given for tied externals", "\"force\", or a load of its own for each external");
-  load.value = (force ? *force : displacement ? *displacement : *moment).number();
+  std::vector<std::pair<std::string, Value>> given;
+  for (const char* key : {"force", "displacement", "moment"})
+    if (const auto number = value.find(key)) given.emplace_back(key, *number);
+  if (given.size() != 1)
+    value.fail(
+        fmt::format("{} of \"force\", \"displacement\" and \"moment\"", given.empty() ? "none" : "more than one"),
+        "exactly one of them");
+  const auto& [kind, number] = given.front();
+  load.is_displacement = kind == "displacement";
+  load.is_moment = kind == "moment";
+  if (kind != "force" && !load.tied.empty())
+    number.fail("given for tied externals", "\"force\", or a load of its own for each external");
+  load.value = number.number();
   return load;
 }
 
@@ -274,27 +275,22 @@ void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) 
 std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
   const auto increments = root.find("increments"), given = root.find("cases");
   const std::vector<double> factors = increments ? read_increments(*increments) : std::vector{1.0};
-  if (!given) {
-    CaseScene only{"", read_loads(root.at("loads"), scene, 1), factors};
-    only.where = where(root);
-    read_temperatures(root, scene, only);
-    return {only};
-  }
-  for (const char* key : {"temperatures", "fastener_temperature"})
-    if (const auto own = root.find(key)) own->fail("given together with \"cases\"", "it in each case");
-  if (const auto loads = root.find("loads")) loads->fail("given together with \"cases\"", "one of them");
+  for (const char* key : {"temperatures", "fastener_temperature", "loads"})
+    if (const auto own = root.find(key); own && given)
+      own->fail("given together with \"cases\"", key == std::string("loads") ? "one of them" : "it in each case");
   std::vector<CaseScene> cases;
   std::set<std::string> names;
-  const auto items = given->items(1);
+  const auto items = given ? given->items(1) : std::vector{root};
   for (const auto& item : items) {
-    item.only({"name", "loads", "increments", "after", "temperatures", "fastener_temperature"});
+    if (given) item.only({"name", "loads", "increments", "after", "temperatures", "fastener_temperature"});
     const auto own = item.find("increments");
-    cases.push_back(
-        {item.at("name").text(), read_loads(item.at("loads"), scene, 0), own ? read_increments(*own) : factors});
-    cases.back().where = where(item);
-    read_temperatures(item, scene, cases.back());
-    if (!names.insert(cases.back().name).second)
-      item.at("name").fail(fmt::format("\"{}\" stands twice", cases.back().name), "each name once");
+    CaseScene& its = cases.emplace_back(CaseScene{given ? item.at("name").text() : "",
+                                                  read_loads(item.at("loads"), scene, given ? 0 : 1),
+                                                  own ? read_increments(*own) : factors});
+    its.where = where(item);
+    read_temperatures(item, scene, its);
+    if (!names.insert(its.name).second)
+      item.at("name").fail(fmt::format("\"{}\" stands twice", its.name), "each name once");
   }
   read_order(items, cases);
   const bool remembers =
@@ -379,17 +375,21 @@ JointScene read_joint_scene(const input::Document& document) {
   return scene;
 }
 
-void read_again(const input::Document& document, const SceneParts& parts, JointScene& scene) {
+void read_again(const input::Document& document, const std::set<std::vector<std::string>>& items, JointScene& scene) {
   const Value root(document);
-  const Value laws = root.at("laws");
-  for (const auto& name : parts.laws) scene.laws.at(name).law = read_law(laws.at(name.c_str()));
-  if (!parts.fasteners.empty()) {
-    const auto fasteners = root.at("fasteners").items();
-    for (const std::size_t at : parts.fasteners) scene.fasteners[at] = read_fastener(fasteners[at], scene);
-  }
-  for (const auto& [at, load] : parts.loads) {
-    const Value its = root.find("cases") ? root.at("cases").items()[at] : root;
-    scene.cases[at].loads[load] = read_load(its.at("loads").items()[load], scene);
+  const auto fasteners = root.at("fasteners").items();
+  for (const auto& item : items) {
+    const std::string& list = item.front();
+    if (list == "laws") {
+      scene.laws.at(item[1]).law = read_law(root.at("laws").at(item[1].c_str()));
+    } else if (list == "fasteners") {
+      const std::size_t at = std::stoul(item[1]);
+      scene.fasteners[at] = read_fastener(fasteners[at], scene);
+    } else {
+      const std::size_t of_case = list == "cases" ? std::stoul(item[1]) : 0, at = std::stoul(item.back());
+      const Value its = list == "cases" ? root.at("cases").items()[of_case] : root;
+      scene.cases[of_case].loads[at] = read_load(its.at("loads").items()[at], scene);
+    }
   }
 }
 

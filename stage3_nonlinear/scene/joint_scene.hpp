@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/input/value.hpp"
@@ -134,15 +133,9 @@ struct JointScene {
 /// and loads are unique, each hole has one fastener, which goes through each plate once. Throws InputError.
 [[nodiscard]] JointScene read_joint_scene(const input::Document& document);
 
-/// Some of the laws, fasteners and loads of JOINT.json.
-struct SceneParts {
-  std::set<std::string> laws;
-  std::set<std::size_t> fasteners;
-  std::set<std::pair<std::size_t, std::size_t>> loads;  ///< case, and load in it
-};
-
-/// Reads parts of a scene again from a document in which only their numbers have changed. Throws InputError.
-void read_again(const input::Document& document, const SceneParts& parts, JointScene& scene);
+/// Reads items of a scene again from a document in which only their numbers have changed. Throws InputError.
+/// @param items Laws, fasteners and loads, each by the parts of its JSON pointer.
+void read_again(const input::Document& document, const std::set<std::vector<std::string>>& items, JointScene& scene);
 
 /// Throws InputError "WHERE: FOUND; allowed: ALLOWED".
 [[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed);

@@ -17,8 +17,13 @@ constexpr double at_rim = 0.5;  ///< e/D at which the rim touches the edge
 
 using input::Value;
 
-/// The key of the allowable of each kind of check.
-constexpr std::array allowable_keys{"F_br", "F_su", "F_tu", "F_su", "polygon", "limit"};
+/// Keys of each kind of check besides those of all; the first is that of its allowable.
+const std::array<std::vector<const char*>, 6> own_keys{{{"F_br", "edge_distance"},
+                                                        {"F_su", "P_su", "diameter"},
+                                                        {"F_tu"},
+                                                        {"F_su", "edge_distance"},
+                                                        {"polygon"},
+                                                        {"limit"}}};
 
 Allowable read_allowable(const Value& value) {
   if (!value.is_array()) return {{}, {value.number(input::positive)}};
@@ -58,28 +63,9 @@ std::vector<std::pair<double, double>> read_polygon(const Value& value) {
   return points;
 }
 
-/// Keys of a check besides those of all.
-std::vector<const char*> own_keys(CheckKind kind) {
-  switch (kind) {
-    case CheckKind::bearing:
-      return {"F_br", "edge_distance"};
-    case CheckKind::fastener_shear:
-      return {"F_su", "P_su", "diameter"};
-    case CheckKind::tension:
-      return {"F_tu"};
-    case CheckKind::shear_out:
-      return {"F_su", "edge_distance"};
-    case CheckKind::bearing_bypass:
-      return {"polygon"};
-    case CheckKind::peak:
-      return {"limit"};
-  }
-  return {};
-}
-
 void check_keys(const Value& value, CheckKind kind) {
   std::set<std::string> allowed{"check", "name", "of", "cases", "safety_factor", "fitting_factor"};
-  for (const char* key : own_keys(kind)) allowed.insert(key);
+  allowed.insert(own_keys[int(kind)].begin(), own_keys[int(kind)].end());
   for (const auto& [key, member] : value.members())
     if (!allowed.contains(key))
       member.fail("unknown key", fmt::format("{} of a check \"{}\"", fmt::join(allowed, ", "), check_names[int(kind)]));
@@ -114,7 +100,7 @@ CheckScene read_check(const Value& value, const std::vector<std::string>& known,
   else if (check.kind == CheckKind::bearing)
     check.allowable = read_allowable(value.at("F_br"));
   else
-    check.allowable = {{}, {(force ? *force : value.at(allowable_keys[int(check.kind)])).number(input::positive)}};
+    check.allowable = {{}, {(force ? *force : value.at(own_keys[int(check.kind)].front())).number(input::positive)}};
   if (const auto e = value.find("edge_distance")) check.edge_distance = e->number(input::positive);
   if (const auto d = value.find("diameter")) check.diameter = d->number(input::positive);
   return check;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -125,39 +126,12 @@ VectorXd newton_step(const RootProblem& problem, const Root& root) {
   return -problem.jacobian(root.x).partialPivLu().solve(root.residual);
 }
 
-/// Tells that an iteration goes on in a circle: the norm of the residual has stayed the same for many iterations, which
-/// steps across corners do not do for long.
-class Standstill {
- public:
-  bool is_reached(double norm) {
-    constexpr double same = 1e-3;
-    constexpr int many = 25;
-    n_same_ = std::abs(norm - norm_) <= same * norm_ ? n_same_ + 1 : 0;
-    norm_ = norm;
-    return n_same_ >= many;
-  }
-
- private:
-  double norm_ = 0;
-  int n_same_ = 0;
-};
-
 }  // namespace
 
 const char* text_of(Ending ending) {
-  switch (ending) {
-    case Ending::converged:
-      return "converged";
-    case Ending::no_progress:
-      return "no step lowers the residual";
-    case Ending::unbounded:
-      return "no solution: the displacements grow without limit";
-    case Ending::not_finite:
-      return "a value is not finite";
-    case Ending::max_iterations:
-      break;
-  }
-  return "the limit of iterations is reached";
+  constexpr std::array texts{"converged", "the limit of iterations is reached", "no step lowers the residual",
+                             "no solution: the displacements grow without limit", "a value is not finite"};
+  return texts[std::size_t(ending)];  // in the order of Ending
 }
 
 Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
@@ -172,7 +146,12 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
   };
   report();
   double min_norm = std::numeric_limits<double>::infinity();
-  Standstill standstill;
+  // An iteration goes on in a circle if the norm of the residual has stayed the same for many iterations, which steps
+  // across corners do not do for long.
+  constexpr double same = 1e-3;
+  constexpr int many = 25;
+  double norm = 0;
+  int n_same = 0;
   while (!(root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) && root.iterations < options.max_iterations) {
     ++root.iterations;
     min_norm = std::min(min_norm, root.residual.norm());
@@ -185,7 +164,9 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
     }
     root = *std::move(there);
     report();
-    if (standstill.is_reached(root.residual.norm())) {
+    const double before = std::exchange(norm, root.residual.norm());
+    n_same = std::abs(norm - before) <= same * before ? n_same + 1 : 0;
+    if (n_same >= many) {
       root.ending = Ending::no_progress;
       break;
     }

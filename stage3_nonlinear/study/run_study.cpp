@@ -53,20 +53,21 @@ Slice read_slice(const program::Arguments& arguments) {
 
 Study read_study(const program::Arguments& arguments) {
   const std::string study_file = arguments.text("--study");
-  program::check_spare("-o", arguments.output, study_file, "the study");
-  program::check_spare("--timings", arguments.timings, study_file, "the study");
+  const auto check = [&](const std::string& file, const std::string& what) {
+    program::check_spare("-o", arguments.output, file, what);
+    program::check_spare("--timings", arguments.timings, file, what);
+  };
+  check(study_file, "the study");
   Study study;
   study.joint_text = input::parse(arguments.input, input::read_text_file(arguments.input));
   study.study_text = input::parse(study_file, input::read_text_file(study_file));
   study.joint = read_joint_scene(study.joint_text);
   study.scene = read_study_scene(study.study_text, study.joint_text);
-  const auto check = [&](const std::string& file, const std::string& reader) {
-    program::check_spare("-o", arguments.output, file, fmt::format("a file that {} reads", reader));
-    program::check_spare("--timings", arguments.timings, file, fmt::format("a file that {} reads", reader));
-  };
-  for (const auto& plate : study.joint.plates) check(plate.file, arguments.input);
-  for (const auto& [name, law] : study.joint.laws) check(law.law->file(), arguments.input);
-  for (const auto& variable : study.scene.variables) check(variable.table, study_file);
+  const std::string of_joint = fmt::format("a file that {} reads", arguments.input);
+  for (const auto& plate : study.joint.plates) check(plate.file, of_joint);
+  for (const auto& [name, law] : study.joint.laws) check(law.law->file(), of_joint);
+  for (const auto& variable : study.scene.variables)
+    check(variable.table, fmt::format("a file that {} reads", study_file));
   return study;
 }
 
@@ -186,23 +187,18 @@ std::string failures_text(const StudyBlocks& blocks) {
 /// @param scene With all friction.
 JointModel load_studied(const program::Arguments& arguments, const Study& study, const JointScene& scene) {
   JointModel joint = load_joint(scene, arguments.integer("--p", 1, formats::highest_degree, 0));
-  const bool has_peaks =
-      std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
-  if (study.scene.outputs.contains("peaks") && !has_peaks)
-    throw InputError(
-        fmt::format("{}: /outputs: \"peaks\", but no plate's matrices hold stresses at p = {}; allowed: "
-                    "matrices of stage2_extract without --loads-only, at their highest degree",
-                    study.scene.file, joint.p));
-  if (study.scene.outputs.contains("cracks") &&
-      std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tips.empty(); }))
-    throw InputError(
-        fmt::format("{}: /outputs: \"cracks\", but no plate has cracks; allowed: at least one plate with \"cracks\" in "
-                    "its PLATE.json",
-                    study.scene.file));
-  if (study.scene.outputs.contains("margins") && study.joint.checks.empty())
-    throw InputError(
-        fmt::format("{}: /outputs: \"margins\", but the joint has no checks; allowed: with \"margins\" in {}",
-                    study.scene.file, study.joint.file));
+  const auto require = [&](const char* word, bool has_some, const std::string& reason) {
+    if (study.scene.outputs.contains(word) && !has_some)
+      throw InputError(fmt::format("{}: /outputs: \"{}\", but {}", study.scene.file, word, reason));
+  };
+  require("peaks", std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); }),
+          fmt::format("no plate's matrices hold stresses at p = {}; allowed: matrices of stage2_extract without "
+                      "--loads-only, at their highest degree",
+                      joint.p));
+  require("cracks", std::ranges::any_of(joint.plates, [](const auto& plate) { return !plate.cracks.tips.empty(); }),
+          "no plate has cracks; allowed: at least one plate with \"cracks\" in its PLATE.json");
+  require("margins", !study.joint.checks.empty(),
+          fmt::format("the joint has no checks; allowed: with \"margins\" in {}", study.joint.file));
   return joint;
 }
 
@@ -302,7 +298,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
     for (const auto& each : middle_warnings(joint, middle_scene, cases)) program::warn(log, program_name, each);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
-    if (!study.scene.outputs.contains("peaks") && !study.scene.outputs.contains("margins")) plate.stress_level.reset();
+    if (!outputs.need_stresses()) plate.stress_level.reset();
   }
   const StudySolver solver(joint, middle_scene, cases, std::move(outputs));
   Samples samples(study, seed, solver);

@@ -37,15 +37,9 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
       json& number = (*root_)[pointer];
       targets_.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer(),
                           study.variables[i].use, i});
-      const auto parts = parts_of_pointer(place);
-      if (parts[0] == "laws")
-        parts_.laws.insert(parts[1]);
-      else if (parts[0] == "fasteners")
-        parts_.fasteners.insert(std::stoul(parts[1]));
-      else if (parts[0] == "loads")
-        parts_.loads.insert({0, std::stoul(parts[1])});
-      else
-        parts_.loads.insert({std::stoul(parts[1]), std::stoul(parts[3])});
+      auto parts = parts_of_pointer(place);
+      parts.resize(parts[0] == "cases" ? 4 : 2);
+      items_.insert(std::move(parts));
     }
 }
 
@@ -66,7 +60,7 @@ void SampledJoint::put(const std::vector<double>& values) {
 const JointScene& SampledJoint::scene(const std::vector<double>& values) {
   put(values);
   try {
-    read_again(document_, parts_, scene_);
+    read_again(document_, items_, scene_);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: a sample is not allowed: {}", study_, e.what()));
   }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ class SampledJoint {
   input::Document document_;
   std::string study_;  ///< file, for messages
   std::vector<Target> targets_;
-  SceneParts parts_;
+  std::set<std::vector<std::string>> items_;  ///< with variables, by the parts of their pointers
   JointScene scene_;
 };
 

@@ -2,25 +2,26 @@
 #include "stage3_nonlinear/study/statistics.hpp"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics_double.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+#include <ranges>
+
+#include "common/infinite.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
 /// Smallest k in [0, n] for which a binomial number of n trials is k or less with more than a probability.
 std::uint64_t min_count_with(double probability, double fraction, std::uint64_t n) {
-  std::uint64_t low = 0, high = n;
-  while (low < high) {
-    const std::uint64_t middle = low + (high - low) / 2;
-    // P(X <= k) is 1 - I_p(k + 1, n - k).
-    const double up_to = middle == n ? 1 : gsl_cdf_beta_Q(fraction, double(middle) + 1, double(n - middle));
-    up_to > probability ? high = middle : low = middle + 1;
-  }
-  return low;
+  const auto is_too_small = [&](std::uint64_t k) {  // P(X <= k) is 1 - I_p(k + 1, n - k)
+    return gsl_cdf_beta_Q(fraction, double(k) + 1, double(n - k)) <= probability;
+  };
+  const auto below_n = std::views::iota(std::uint64_t{0}, n);
+  return std::uint64_t(std::ranges::partition_point(below_n, is_too_small) - below_n.begin());
 }
 
 /// Quantile of a beta distribution by bisection: gsl_cdf_beta_Pinv does not converge for all large a and b.
@@ -48,7 +49,12 @@ Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t f
           max_k >= n ? 1 : beta_quantile(1 - beyond_limit, max_k + 1, n - max_k)};
 }
 
-double Moments::deviation() const { return n_ < 2 ? 0 : or_infinite(std::sqrt(squares_ / double(n_ - 1))); }
+Moments moments_of(const std::vector<double>& values) {
+  const auto or_infinite = [](double x) { return std::isnan(x) ? infinite : x; };  // NaN by differences that overflow
+  const double mean = gsl_stats_mean(values.data(), 1, values.size());
+  if (values.size() < 2) return {mean, 0};
+  return {or_infinite(mean), or_infinite(gsl_stats_sd_m(values.data(), 1, values.size(), mean))};
+}
 
 std::vector<double> ranks_of(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
@@ -65,14 +71,11 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
 }
 
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const double mean = 0.5 * (double(a.size()) - 1);
-  double aa = 0, bb = 0, ab = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    aa += (a[i] - mean) * (a[i] - mean);
-    bb += (b[i] - mean) * (b[i] - mean);
-    ab += (a[i] - mean) * (b[i] - mean);
-  }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+  const auto from_mean = [](const std::vector<double>& ranks) {
+    return Eigen::VectorXd(Eigen::ArrayXd::Map(ranks.data(), std::ssize(ranks)) - 0.5 * (double(ranks.size()) - 1));
+  };
+  const Eigen::VectorXd x = from_mean(a), y = from_mean(b);
+  return x.isZero(0) || y.isZero(0) ? 0 : x.dot(y) / (x.norm() * y.norm());
 }
 
 }  // namespace fastjoint::stage3

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace fastjoint::stage3 {
@@ -28,25 +26,11 @@ struct Proportion {
 };
 [[nodiscard]] Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t failed);
 
-/// Mean and deviation of a stream of numbers (Welford 1962); infinite where they are beyond what a number holds.
-class Moments {
- public:
-  void add(double x) {
-    const double before = x - mean_;
-    mean_ += before / double(++n_);
-    squares_ += before * (x - mean_);
-  }
-  [[nodiscard]] double mean() const { return or_infinite(mean_); }
-  /// The deviation of a sample: the sum of squares over n - 1.
-  [[nodiscard]] double deviation() const;
-
- private:
-  /// A difference of numbers that overflows makes sums NaN.
-  static double or_infinite(double x) { return std::isnan(x) ? std::numeric_limits<double>::infinity() : x; }
-
-  std::uint64_t n_ = 0;
-  double mean_ = 0, squares_ = 0;
+/// Mean and deviation of numbers, the deviation of a sample; infinite where they are beyond what a number holds.
+struct Moments {
+  double mean, deviation;
 };
+[[nodiscard]] Moments moments_of(const std::vector<double>& values);
 
 /// Spearman's rank correlation of two lists of equal length; 0 if one of them is constant.
 [[nodiscard]] double rank_correlation(const std::vector<double>& ranks_a, const std::vector<double>& ranks_b);

@@ -8,6 +8,18 @@
 
 namespace fastjoint::stage3 {
 
+std::vector<columns::Output> all_outputs() {
+  std::vector<columns::Output> outputs;
+  const auto add = [&](const auto& groups) {
+    for (const auto& group : groups)
+      for (const auto& quantity : group.quantities)
+        if (quantity.output) outputs.push_back(*quantity.output);
+  };
+  add(plane_quantities({}));
+  add(plate_quantities({}));
+  return outputs;
+}
+
 template <class At, class Names>
 void StudyOutputs::add(const std::vector<columns::Group<At>>& groups, Index plate, const StudyScene& study,
                        Names names) {
@@ -109,6 +121,13 @@ VectorXd StudyOutputs::numbers(const JointAt& at, const std::string& case_name) 
   }
   if (!items_.empty()) all.tail(std::ssize(items_)) = utilisations(at, case_name);
   return all;
+}
+
+bool StudyOutputs::need_stresses() const {
+  const auto is_of_hole = [&](const Source& its) {
+    return its.plate >= 0 && of_plates_[its.plate][its.group].of == columns::Of::hole;
+  };
+  return !items_.empty() || std::ranges::any_of(sources_, is_of_hole);
 }
 
 void StudyOutputs::take(const VectorXd& its, VectorXd& all) const {

@@ -10,6 +10,9 @@
 
 namespace fastjoint::stage3 {
 
+/// The quantities that are outputs of studies.
+[[nodiscard]] std::vector<columns::Output> all_outputs();
+
 /// Numbers of one kind among those of a sample: those of a quantity at all its things.
 struct OutputKind {
   columns::Output output;
@@ -29,6 +32,8 @@ class StudyOutputs {
   [[nodiscard]] const std::vector<OutputKind>& kinds() const { return kinds_; }
   /// How many numbers.
   [[nodiscard]] Index size() const { return size_; }
+  /// True if some follow from the stresses of plates: those of holes and of checks.
+  [[nodiscard]] bool need_stresses() const;
   /// The numbers of one load case; a utilisation that is not known is infinite.
   [[nodiscard]] VectorXd numbers(const JointAt& at, const std::string& case_name) const;
   /// Takes the numbers of a case into the envelope of those before.

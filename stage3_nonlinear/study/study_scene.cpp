@@ -5,15 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
-#include "stage3_nonlinear/study/random.hpp"
-#include "stage3_nonlinear/study/sample_table.hpp"
+#include "stage3_nonlinear/study/study_outputs.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -22,7 +20,6 @@ using input::Value;
 using nlohmann::json;
 
 constexpr std::uint64_t max_study_samples = 1000000000;
-constexpr std::size_t max_levels = 1000000;
 
 /// A place in JOINT.json.
 struct Found {
@@ -31,12 +28,6 @@ struct Found {
   std::string counted;  ///< id of the item that it gives by its index
   bool is_new = false;  ///< true if the joint has no number there yet
 };
-
-std::string plain(std::string key) {
-  for (const auto& [from, to] : {std::pair("~1", "/"), std::pair("~0", "~")})
-    for (auto at = key.find(from); at != std::string::npos; at = key.find(from, at + 1)) key.replace(at, 2, to);
-  return key;
-}
 
 /// Follows the parts of a pointer from the k-th on. The last may be a key that an object does not have yet.
 void look_up(const json& at, const std::vector<std::string>& parts, std::size_t k, const Found& so_far,
@@ -73,9 +64,14 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
       "JSON pointers to numbers of laws, fasteners or loads, such as \"/laws/NAME/k\", \"/fasteners/*/clearance\", "
       "\"/loads/0/force\" or \"/cases/0/loads/0/force\"";
   const std::string text = place.text();
-  const auto parts = parts_of_pointer(text);
   const std::set<std::string> varied{"laws", "fasteners", "loads", "cases"};
-  if (text[0] != '/' || parts.size() < 3 || !varied.contains(parts[0]) ||
+  std::vector<std::string> parts;
+  try {
+    parts = parts_of_pointer(text);
+  } catch (const json::parse_error&) {
+    place.not_allowed(allowed);
+  }
+  if (parts.size() < 3 || !varied.contains(parts[0]) ||
       (parts[0] == "cases" && (parts.size() < 5 || parts[2] != "loads")))
     place.not_allowed(allowed);
   std::vector<Found> found;
@@ -90,42 +86,7 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
 /// Reads one of the words of an enumeration, which stand in the order of its values.
 template <class Choice>
 Choice read_choice(const Value& value, const std::vector<std::string>& words) {
-  return static_cast<Choice>(std::ranges::find(words, value.choice(words)) - words.begin());
-}
-
-std::vector<double> read_grid(const Value& grid) {
-  grid.only({"from", "to", "n", "spacing"});
-  const int n = grid.at("n").integer(1, max_levels);
-  const auto spacing = grid.find("spacing");
-  const bool by_logarithm = spacing && spacing->choice({"linear", "logarithmic"}) == "logarithmic";
-  const auto range = by_logarithm ? input::positive : input::any_number;
-  const double from = grid.at("from").number(range), to = grid.at("to").number(range);
-  std::vector<double> levels;
-  for (int i = 0; i < n; ++i) {
-    const double fraction = n == 1 ? 0 : double(i) / (n - 1);
-    levels.push_back(i + 1 == n && n > 1 ? to
-                     : by_logarithm      ? std::pow(from, 1 - fraction) * std::pow(to, fraction)
-                                         : std::lerp(from, to, fraction));
-  }
-  return levels;
-}
-
-/// Reads the source of the variable's numbers.
-void read_numbers(const Value& value, Variable& variable) {
-  const auto values = value.find("values"), grid = value.find("grid"), table = value.find("table"),
-             distribution = value.find("distribution");
-  if (!!values + !!grid + !!table + !!distribution != 1)
-    value.fail("not one source of its numbers", "one of \"values\", \"grid\", \"table\" and \"distribution\"");
-  if (values) variable.listed = values->numbers(1, max_levels, input::any_number);
-  if (grid) variable.listed = read_grid(*grid);
-  if (values || grid) variable.distribution = std::make_shared<Distribution>(discrete(variable.listed));
-  if (distribution) variable.distribution = std::make_shared<Distribution>(read_distribution(*distribution));
-  if (table) {
-    table->only({"file", "column"});
-    const auto path = std::filesystem::path(value.file()).parent_path() / table->at("file").text();
-    variable.table = path.string();
-    variable.listed = read_column(variable.table, table->at("column").text());
-  }
+  return static_cast<Choice>(index_of(words, value.choice(words)));
 }
 
 void read_variable(const Value& value, const json& joint, std::vector<Variable>& variables) {
@@ -210,9 +171,8 @@ void read_number(const Value& root, StudyScene& study) {
     given->fail(fmt::format("{}", study.n_samples), fmt::format("up to the {} rows of the table", rows));
 }
 
-/// Limit of the load of all fasteners, or an object with one for each.
+/// Limits of the loads of fasteners, each by its id.
 void read_force_limits(const Value& limit, const Value& joint, StudyScene& study) {
-  if (!limit.is_object()) return void(study.limits["force"] = limit.number(input::positive));
   std::vector<std::string> ids;
   for (const auto& fastener : joint.at("fasteners").items()) ids.push_back(fastener.at("id").text());
   for (const auto& [id, of_one] : limit.members()) {
@@ -223,20 +183,23 @@ void read_force_limits(const Value& limit, const Value& joint, StudyScene& study
 
 /// Limits of outputs, and least margins of checks by their names.
 void read_limits(const Value& limits, const Value& joint, StudyScene& study) {
-  std::vector<std::string> allowed{"force", "peak", "K_I"};
+  std::vector<std::string> allowed, asked;  // names of limits, and words for what they are limits of
+  for (const auto& output : all_outputs())
+    if (output.largest != nullptr) allowed.emplace_back(output.name), asked.emplace_back(output.asked);
   if (const auto margins = joint.find("margins"))
     for (const auto& check : margins->at("checks").items())
       allowed.push_back(check.find("name").value_or(check.at("check")).text());
   for (const auto& [name, limit] : limits.members()) {
-    const auto at = std::ranges::find(allowed, name) - allowed.begin();
-    if (at == std::ssize(allowed)) limit.fail("unknown key", fmt::format("{}", fmt::join(allowed, ", ")));
-    if (at == 0)
-      read_force_limits(limit, joint, study);
-    else if (at < 3)
-      study.limits[name] = limit.number(input::positive);
-    else
+    const auto at = std::size_t(index_of(allowed, name));
+    if (at == allowed.size()) limit.fail("unknown key", fmt::format("{}", fmt::join(allowed, ", ")));
+    const bool is_margin = at >= asked.size();
+    if (is_margin)
       study.least_margins[name] = limit.number(input::not_negative);
-    study.outputs.insert(at == 0 ? "forces" : at == 1 ? "peaks" : at == 2 ? "cracks" : "margins");
+    else if (limit.is_object() && name == "force")
+      read_force_limits(limit, joint, study);
+    else
+      study.limits[name] = limit.number(input::positive);
+    study.outputs.insert(is_margin ? "margins" : asked[at]);
   }
 }
 
@@ -244,11 +207,7 @@ void read_limits(const Value& limits, const Value& joint, StudyScene& study) {
 
 std::vector<std::string> parts_of_pointer(const std::string& pointer) {
   std::vector<std::string> parts;
-  for (std::size_t at = 0; at < pointer.size();) {
-    const auto end = std::min(pointer.find('/', at + 1), pointer.size());
-    parts.push_back(plain(pointer.substr(at + 1, end - at - 1)));
-    at = end;
-  }
+  for (json::json_pointer rest(pointer); !rest.empty(); rest.pop_back()) parts.insert(parts.begin(), rest.back());
   return parts;
 }
 
@@ -266,9 +225,12 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
   study.sampling = read_sampling(root, study);
   read_number(root, study);
   if (const auto seed = root.find("seed")) study.seed = seed->integer(0, std::numeric_limits<int>::max());
+  std::vector<std::string> words;
+  for (const auto& output : all_outputs())
+    if (words.empty() || words.back() != output.asked) words.emplace_back(output.asked);
+  words.emplace_back("margins");
   if (const auto outputs = root.find("outputs"))
-    for (const auto& output : outputs->items())
-      study.outputs.insert(output.choice({"forces", "peaks", "displacements", "cracks", "margins"}));
+    for (const auto& output : outputs->items()) study.outputs.insert(output.choice(words));
   if (const auto cases = root.find("cases"))
     for (const auto& name : cases->items(1)) {
       if (std::ranges::find(study.cases, name.text()) != study.cases.end())
@@ -299,27 +261,10 @@ std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, s
   return values;
 }
 
-double middle_of(const Variable& variable) {
-  if (variable.listed.empty()) return variable.distribution->at(0.5);
-  std::vector<double> all = variable.listed;
-  std::ranges::nth_element(all, all.begin() + std::ssize(all) / 2);
-  return all[all.size() / 2];
-}
-
 std::vector<double> middle_values(const StudyScene& study) {
   std::vector<double> values;
   for (const auto& variable : study.variables) values.push_back(middle_of(variable));
   return values;
-}
-
-double largest_of(const Variable& variable) {
-  return variable.listed.empty() ? variable.distribution->largest : std::ranges::max(variable.listed);
-}
-
-double spread_of(const Variable& variable) {
-  if (variable.listed.empty()) return (variable.distribution->at(5.0 / 6) - variable.distribution->at(1.0 / 6)) / 2;
-  const auto [low, high] = std::ranges::minmax(variable.listed);
-  return (high - low) / 3;
 }
 
 }  // namespace fastjoint::stage3

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/study/study_solver.hpp"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/errors.hpp"
@@ -55,8 +53,7 @@ std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const 
     equations.history = std::move(path.history);
     path = {};
     Walk walk(equations, options);
-    (void)walk.assemble();
-    if (!walk.settle()) return std::nullopt;
+    if (!walk.start(path)) return std::nullopt;
     for (const double factor : scene.cases[*at].wanted_load_factors())
       if (!walk.reach(factor) || !walk.record(path, {})) return std::nullopt;
     options.start = path.steps.back().c;
@@ -71,10 +68,6 @@ StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const
   const auto system = std::make_shared<const CondensedSystem>(condense(joint, held));
   for (const std::size_t at : cases) cases_.emplace_back(joint, scene, at, system);
   middle_ = solve(scene);
-}
-
-SampleNumbers StudySolver::nothing(SampleStatus status) const {
-  return {status, VectorXd::Constant(outputs_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
 }
 
 VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step,

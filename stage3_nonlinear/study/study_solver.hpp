@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,8 +35,6 @@ class CaseSolver {
 
   /// Number of the case.
   [[nodiscard]] std::size_t at() const { return at_; }
-  /// Last state with every variable in its middle; none if not solved.
-  [[nodiscard]] const std::optional<PathStep>& middle() const { return middle_; }
   /// Passes the equations and the last state with the parameters of a scene to `use`; false if not solved.
   /// @param away Change of the contact coordinates from those of the middle to the start of the solver, (r); empty: 0.
   template <class Use>
@@ -61,7 +60,7 @@ class CaseSolver {
   PathOptions options_;
   std::shared_ptr<const CondensedSystem> system_;
   std::vector<std::shared_ptr<const RimProblem>> rims_;  ///< solved in the middle
-  std::optional<PathStep> middle_;
+  std::optional<PathStep> middle_;  ///< last state with every variable in its middle; none if not solved
 };
 
 /// Solves the load cases of a joint for other parameters, each time from the solution with all variables in their
@@ -82,7 +81,9 @@ class StudySolver {
   /// Results for other parameters; away from the middle as in CaseSolver, for all cases one after another.
   [[nodiscard]] SampleNumbers solve(const JointScene& scene, const VectorXd& away = {}) const;
   /// Results of a sample that was not solved.
-  [[nodiscard]] SampleNumbers nothing(SampleStatus status) const;
+  [[nodiscard]] SampleNumbers nothing(SampleStatus status) const {
+    return {status, VectorXd::Constant(outputs_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
+  }
 
  private:
   /// Numbers of one case; not finite if it is out of balance.

@@ -58,20 +58,6 @@ void for_each_solved(const StudyBlocks& blocks, Each each) {
   }
 }
 
-/// Statistics of one number over all samples.
-struct OfSamples {
-  double mean, deviation;
-  std::vector<double> ranks;  ///< of the first ones, for correlations
-
-  OfSamples(const std::vector<double>& values, std::uint64_t n_ranked) {
-    Moments moments;
-    for (const double value : values) moments.add(value);
-    mean = moments.mean(), deviation = moments.deviation();
-    ranks =
-        ranks_of({values.begin(), values.begin() + std::ptrdiff_t(std::min<std::uint64_t>(values.size(), n_ranked))});
-  }
-};
-
 class Statistics {
  public:
   Statistics(const StudyContext& context, const StudyBlocks& blocks)
@@ -112,8 +98,8 @@ class Statistics {
       result_.variable.push_back(variable.name);
       result_.place.push_back(fmt::format("{}", fmt::join(variable.places, " ")));
       result_.middle[i] = middle_of(variable);
-      const OfSamples its(all[i], 0);
-      result_.mean[i] = its.mean, result_.deviation[i] = its.deviation;
+      const auto [mean, deviation] = moments_of(all[i]);
+      result_.mean[i] = mean, result_.deviation[i] = deviation;
       variable_ranks_.push_back(ranks_of(ranked[i]));
     }
   }
@@ -153,14 +139,16 @@ class Statistics {
 
   /// Statistics of the i-th number of a group. @param values Of the solved samples; are sorted.
   void describe(const Group& its, Index i, std::vector<double>& values, formats::StudyGroup& group) const {
-    const OfSamples all(values, n_ranked_);
-    group.mean[i] = all.mean, group.deviation[i] = all.deviation;
+    const auto [mean, of_samples] = moments_of(values);
+    group.mean[i] = mean, group.deviation[i] = of_samples;
+    const auto n_ranked = std::ptrdiff_t(std::min<std::uint64_t>(values.size(), n_ranked_));
+    const auto ranks = ranks_of({values.begin(), values.begin() + n_ranked});
     group.sensitivity.row(i) = sensitivity_of(its, i);
     const Eigen::RowVectorXd slope = group.sensitivity.row(i), deviation = result_.deviation.transpose();
     group.by_sensitivities[i] =  // a deviation may be infinite, also of a variable without influence
         slope.allFinite() ? (slope.array() == 0).select(0, slope.cwiseProduct(deviation)).norm() : infinite;
     for (Index k = 0; k < group.correlation.cols(); ++k)
-      group.correlation(i, k) = rank_correlation(all.ranks, variable_ranks_[k]);
+      group.correlation(i, k) = rank_correlation(ranks, variable_ranks_[k]);
     std::ranges::sort(values);
     const auto above = std::uint64_t(values.end() - std::ranges::upper_bound(values, group.limits[i]));
     if (group.closed.size() > 0)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include "common/formats/study.hpp"
 #include "stage3_nonlinear/study/study_blocks.hpp"
 #include "stage3_nonlinear/study/study_scene.hpp"

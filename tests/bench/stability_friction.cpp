@@ -38,7 +38,7 @@ FrictionCounts solve_joints(int n, double mu) {
     counts.from_far += from_far;
     if (path.failure || !from_far) continue;
     const VectorXd F = contact_state(equations, scale * root.x).F;
-    counts.others += !((F - path.steps[0].all_F()).lpNorm<Eigen::Infinity>() < same * scale);
+    counts.others += !((F - contact_state(equations, path.steps[0].c).F).lpNorm<Eigen::Infinity>() < same * scale);
   }
   return counts;
 }

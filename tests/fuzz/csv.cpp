@@ -8,7 +8,7 @@
 
 #include "common/input/csv.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
-#include "stage3_nonlinear/study/sample_table.hpp"
+#include "stage3_nonlinear/study/variable.hpp"
 #include "tests/fuzz/reading.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -227,7 +227,7 @@ TEST_F(ContactReference, JointsComeCloserWithEveryWave) {
       const double error = std::abs(u[2] / exact.displacement - 1);
       EXPECT_LT(error, mu > 0 ? before : before / 2) << harmonics << " waves, gap " << gap << ", friction " << mu;
       before = error;
-      const stage3::RimContact& rim = equations.rims[0]->contact();
+      const stage3::CompressionOnlyRim& rim = equations.rims[0]->contact();
       const VectorXd w = equations.rims[0]->solve(equations.of_rim(step.c, 0)).w;
       const double depth = rim.depth(w, rim.deepest(w));
       if (harmonics == 32) {

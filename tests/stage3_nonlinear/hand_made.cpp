@@ -256,7 +256,7 @@ Eigen::VectorXd linear_solution(const HandMade& joint, double k) {
 Eigen::VectorXd displacements_of(const HandMade& joint, const Eigen::VectorXd& delta) {
   const auto equations = make_equations(joint);
   return displacements(joint, *equations.system, equations.load_rates(1), delta,
-                       Eigen::VectorXd::Zero(equations.system->n_friction()));
+                       Eigen::VectorXd::Zero(equations.system->H.cols()));
 }
 
 HandMade random_joint(std::mt19937& random, const RandomJoint& kind) {

@@ -103,6 +103,7 @@ class StateOfAJoint : public testing::Test {
     const auto plate = sheet();
     formats::PlateHistory result{plate, name};
     result.waves.clear();  // of a hole without contact
+    result.traction_arm = {0};
     const auto add = [&](const columns::Quantity& quantity, Eigen::Index n, double offset) {
       result.columns.put(
           {quantity, {}, n, {}, Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(n, offset, offset + 0.1)});

@@ -75,7 +75,7 @@ class YieldingSpring : public Interface {
 
   [[nodiscard]] Index size() const override { return 1; }
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override {
-    const double set = history.size() > 0 ? history[0] : 0;
+    const double set = history.empty() ? 0 : history[0].set[0];
     const double elastic = k_ * (c[0] - reference_ * set) / (k_ + reference_);  // of c = F + reference delta
     const bool yields = std::abs(elastic) > most_;
     const double F = std::clamp(elastic, -most_, most_);
@@ -85,10 +85,10 @@ class YieldingSpring : public Interface {
   }
   [[nodiscard]] History commit(const VectorXd& c, const History& history) const override {
     const Response at = respond(c, history);
-    return VectorXd::Constant(1, at.delta[0] - at.F[0] / k_);
+    return {Slider{PlaneVector::Constant(1, at.delta[0] - at.F[0] / k_), PlaneVector::Zero(1)}};
   }
-  void add_trace(double trace, Response& response) const override {
-    response.dF.array() = response.dF.array().max(trace);
+  void add_small_stiffness(double small, Response& response) const override {
+    response.dF.array() = response.dF.array().max(small);
     response.ddelta = (1 - response.dF.array()) / reference_;
   }
   [[nodiscard]] std::vector<std::vector<Corner>> corners() const override { return {{}}; }
@@ -118,7 +118,7 @@ TEST(History, GoesFromIncrementToIncrement) {
   EXPECT_NEAR(path.steps[3].delta[0], (q - most) / s, 1e-12);
   EXPECT_NEAR(path.steps[4].F[0], -most, 1e-10);
   ASSERT_EQ(path.history.size(), 1U);
-  EXPECT_NEAR(path.history[0][0], -set, 1e-12) << "as far to the other side";
+  EXPECT_NEAR(path.history[0][0].set[0], -set, 1e-12) << "as far to the other side";
 }
 
 /// Without memory the forces do not know by which loads a joint has come to them.

@@ -21,10 +21,10 @@ VectorXd moments(const rim::Harmonics& pressures, double direction, std::mt19937
   return m + 0.1 * (pressures.push(0) * std::cos(direction) + pressures.push(1) * std::sin(direction));
 }
 
-RimFriction friction(const RimContact& rim, const VectorXd& m) { return rim_friction(rim, rim.touching(m), m); }
+RimFriction friction(const CompressionOnlyRim& rim, const VectorXd& m) { return rim_friction(rim, rim.touching(m), m); }
 
 /// Forces of the shears by a sum over many points.
-VectorXd summed(const RimContact& rim, const VectorXd& m) {
+VectorXd summed(const CompressionOnlyRim& rim, const VectorXd& m) {
   const auto& pressures = rim.pressures();
   constexpr int n = 200000;
   Eigen::Vector2d resultant(0, 0);
@@ -52,7 +52,7 @@ TEST(RimFriction, IsThePressureTimesItsCoefficientOnBothSidesOfTheForce) {
   std::mt19937 random(1);
   for (const auto& pressures : {whole, half})
     for (const double gap : {0.03, 0.0, -0.01}) {
-      const RimContact rim(pressures, stiffness, gap, mu);
+      const CompressionOnlyRim rim(pressures, stiffness, gap, mu);
       for (const double direction : {0.3, 2.5, 4.0}) {
         const VectorXd m = moments(pressures, direction, random);
         const RimFriction found = friction(rim, m);
@@ -66,7 +66,7 @@ TEST(RimFriction, SlopesAreThoseOfDifferences) {
   std::mt19937 random(2);
   for (const auto& pressures : {whole, half})
     for (const double gap : {0.03, 0.0, -0.01, -0.5}) {  // the last sticks
-      const RimContact rim(pressures, stiffness, gap, mu);
+      const CompressionOnlyRim rim(pressures, stiffness, gap, mu);
       for (const double direction : {0.3, 2.5, 4.0}) {
         const VectorXd m = moments(pressures, direction, random);
         const RimFriction found = friction(rim, m);
@@ -83,7 +83,7 @@ TEST(RimFriction, SlopesAreThoseOfDifferences) {
 }
 
 /// Resultants of pressure and of friction along the force.
-std::pair<double, double> resultants(const RimContact& rim, const VectorXd& m) {
+std::pair<double, double> resultants(const CompressionOnlyRim& rim, const VectorXd& m) {
   const auto& pressures = rim.pressures();
   const VectorXd p = rim.forces(rim.touching(m), m), t = friction(rim, m).forces;
   return {std::hypot(pressures.push(0).dot(p), pressures.push(1).dot(p)),
@@ -92,7 +92,7 @@ std::pair<double, double> resultants(const RimContact& rim, const VectorXd& m) {
 
 TEST(RimFriction, ARimWhoseInterferenceHoldsItSticks) {
   VectorXd m = VectorXd::Zero(whole.size());
-  const RimContact rim(whole, stiffness, -0.5, mu);
+  const CompressionOnlyRim rim(whole, stiffness, -0.5, mu);
   EXPECT_TRUE(friction(rim, m).forces.isZero(0));
   for (const double push : {1e-9, 0.01, 0.1}) {
     m[1] = push;
@@ -109,13 +109,13 @@ TEST(RimFriction, ARimWhoseInterferenceHoldsItSticks) {
 TEST(RimFriction, CosinePressureDragsByTwoOverPi) {
   VectorXd m = VectorXd::Zero(whole.size());
   m[1] = 0.01;
-  const auto [pressure, shear] = resultants(RimContact(whole, stiffness, 0, mu), m);
+  const auto [pressure, shear] = resultants(CompressionOnlyRim(whole, stiffness, 0, mu), m);
   EXPECT_NEAR(shear / pressure, 2 / pi * mu, 1e-12);
 }
 
 /// Friction turns with the force: it knows no axes.
 TEST(RimFriction, TurnsWithTheForce) {
-  const RimContact rim(whole, stiffness, 0.001, mu);
+  const CompressionOnlyRim rim(whole, stiffness, 0.001, mu);
   for (const double direction : {0.0, 0.7, 1.6, 3.9}) {
     VectorXd m = VectorXd::Zero(whole.size());
     m[1] = 0.01 * std::cos(direction), m[2] = 0.01 * std::sin(direction);

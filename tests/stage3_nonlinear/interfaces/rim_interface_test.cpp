@@ -24,7 +24,7 @@ RimProblem rim(bool laminate, bool elastic, double gap, double mu) {
                                     radius, area, elastic ? rim::ElasticDisk{50e3, 0.3} : rim::ElasticDisk{}};
   const formats::WaveRim waves{"1", carried, radius, area, K, sheet(laminate)};
   const auto own = std::make_shared<const ShortWaves>(short_waves(contact, waves));
-  return {RimContact(all, contact_stiffness(contact, *own, k), gap, mu), own, area, k};
+  return {CompressionOnlyRim(all, contact_stiffness(contact, *own, k), gap, mu), own, area, k};
 }
 
 TEST(RimInterface, SlopesAndChangesAreDifferences) {

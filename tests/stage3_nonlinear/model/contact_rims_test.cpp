@@ -85,7 +85,7 @@ DiscState state_of(const PlateModel& plate, double gap, double mu, const Eigen::
       1e4;  // little, so that the springs which keep a disk from overlapping are always the same
   const auto& contact = plate.contact[0];
   const RimProblem rim(
-      RimContact(contact.pressures, contact_stiffness(contact, *plate.short_waves[0], stiffness), gap, mu),
+      CompressionOnlyRim(contact.pressures, contact_stiffness(contact, *plate.short_waves[0], stiffness), gap, mu),
       plate.short_waves[0], area, stiffness);
   // The rim's force f and the plate's on the moments, S (u, m) + R tau, add up to nothing: Newton's method for c.
   VectorXd c = VectorXd::Zero(k);

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 /// Warnings of a joint of two plates, whose hole "1" of the first is in a state.
-std::vector<program::Warning> warnings_of(const RimState& rim) {
+std::vector<program::Warning> warnings_of(const HoleState& rim) {
   test::HandMade joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
   joint.plates[0].stresses.rim_hole = {"1"};
   JointState state;
@@ -24,8 +24,8 @@ std::vector<program::Warning> warnings_of(const RimState& rim) {
   return rim_warnings(joint, joint.numbers(), {state});
 }
 
-RimState low_peak() {
-  RimState rim;
+HoleState low_peak() {
+  HoleState rim;
   rim.in_tension = true;
   rim.peak_hoop = 80;
   rim.net_concentration = 0.8;
@@ -36,17 +36,17 @@ RimState low_peak() {
 TEST(RimWarnings, DoubtAPeakBelowTheNetStressWhereSpringsPull) {
   EXPECT_THAT(warnings_of(low_peak()),
               testing::Contains(test::is_warning("kt-below-one", "joint.json: Kt net is 0.8 ")));
-  RimState none_pulls = low_peak(), open = low_peak(), compressed = low_peak(), high = low_peak();
+  HoleState none_pulls = low_peak(), open = low_peak(), compressed = low_peak(), high = low_peak();
   none_pulls.pull = 0;
   open.net_concentration = 0;
   compressed.in_tension = false;
   high.net_concentration = 1.2;
-  for (const RimState& rim : {none_pulls, open, compressed, high})
+  for (const HoleState& rim : {none_pulls, open, compressed, high})
     for (const auto& each : warnings_of(rim)) EXPECT_NE(each.code, "kt-below-one") << each.text;
 }
 
 TEST(RimWarnings, DoubtFrictionAgainstTheSlipItMakes) {
-  RimState rim;
+  HoleState rim;
   rim.against_slip = 25;
   EXPECT_THAT(warnings_of(rim),
               testing::Contains(test::is_warning("friction-against-slip",

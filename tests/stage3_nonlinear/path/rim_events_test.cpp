@@ -50,7 +50,7 @@ TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
         ASSERT_TRUE(walk.reach(begin + sample * (step.load_factor - begin) / 10));
         Eigen::VectorXi here = corners.passed(walk.here().c);
         for (Index entry = equations.n_planes(); entry < here.size(); ++entry) {  // a loose bolt lies anywhere
-          const RimContact& rim = equations.rims[(entry - equations.n_planes()) / 2]->contact();
+          const CompressionOnlyRim& rim = equations.rims[(entry - equations.n_planes()) / 2]->contact();
           const double near = 1e-4 * rim.stiffness() * std::abs(rim.gap());
           if (passed && std::abs(corners.position(walk.here().c, entry)) < near) here[entry] = (*passed)[entry];
         }

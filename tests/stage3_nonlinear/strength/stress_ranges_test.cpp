@@ -17,7 +17,8 @@ formats::JointResult result_of(Index n_plates, Index n_holes, Index steps) {
   formats::JointResult result;
   result.load_factor.setZero(steps);
   for (Index i = 0; i < n_plates; ++i) {
-    formats::PlateHistory plate{.name = "plate " + std::to_string(i)};
+    formats::PlateHistory plate;
+    plate.name = "plate " + std::to_string(i);
     for (Index hole = 0; hole < n_holes; ++hole) plate.holes.hole.push_back(std::to_string(hole));
     const MatrixXd errors = Eigen::VectorXd::LinSpaced(steps, 1, double(steps)).replicate(1, n_holes);
     plate.columns.put({{"rim/peak_error", columns::stress, ""}, columns::Of::hole, n_holes, {}, errors});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/study/sample_table.hpp"
+#include "stage3_nonlinear/study/variable.hpp"
 
 #include <gmock/gmock.h>
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "stage3_nonlinear/study/random.hpp"
 #include "stage3_nonlinear/study/statistics.hpp"
+#include "stage3_nonlinear/study/variable.hpp"
 
 namespace fastjoint::stage3::study_test {
 namespace {
@@ -102,10 +102,14 @@ TEST(RankCorrelation, IsOneOfAnyRisingFunctionAndCountsTiesByTheirMean) {
 }
 
 TEST(Moments, AreInfiniteBeyondWhatANumberHolds) {
-  Moments moments;
-  for (const double x : {1e308, -1e308, 1e308}) moments.add(x);
-  EXPECT_TRUE(std::isinf(moments.mean()));
-  EXPECT_TRUE(std::isinf(moments.deviation()));
+  EXPECT_TRUE(std::isinf(moments_of({1e308, -1e308, 1e308}).deviation));
+  EXPECT_TRUE(std::isinf(moments_of({1.7e308, -1.7e308, 1.7e308, -1.7e308}).deviation));
+  const auto [mean, deviation] = moments_of({1, 2, 6});
+  EXPECT_DOUBLE_EQ(mean, 3);
+  EXPECT_DOUBLE_EQ(deviation, std::sqrt(7));
+  EXPECT_EQ(moments_of({0.1, 0.1, 0.1}).deviation, 0);
+  EXPECT_EQ(moments_of({4}).mean, 4);
+  EXPECT_EQ(moments_of({}).deviation, 0);
 }
 
 }  // namespace

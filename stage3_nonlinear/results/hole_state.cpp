@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/rim_state.hpp"
+#include "stage3_nonlinear/results/hole_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +80,7 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
 /// Sets the peak, and the values that follow from the pressure around the rim.
 /// @param axes Directions of its disc.
 void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
-              const std::vector<int>& axes, double largest, const Eigen::RowVector2d& bearing_area, RimState& state) {
+              const std::vector<int>& axes, double largest, const Eigen::RowVector2d& bearing_area, HoleState& state) {
   const Eigen::Vector2d jumps = (friction.array().abs() > min_jump * bearing.norm()).select(friction, 0);
   state.by_components = !rim.in_contact && jumps[0] != 0 && jumps[1] != 0;
   const auto places = rim.in_contact ? jumps_of_contact(bearing, friction, rim) : jumps_of_sides(jumps);
@@ -106,17 +106,17 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
 
 }  // namespace
 
-std::vector<RimState> rim_states(const formats::PlateStresses& a, const formats::Border& border, int level,
-                                 const VectorXd& coefficients, const LoadedDiscs& discs, double scale,
-                                 const std::vector<std::optional<LoadedRim>>& rims) {
-  std::vector<RimState> states;
+std::vector<HoleState> hole_states(const formats::PlateStresses& a, const formats::Border& border, int level,
+                                   const VectorXd& coefficients, const LoadedDiscs& discs, double scale,
+                                   const std::vector<std::optional<LoadedRim>>& rims) {
+  std::vector<HoleState> states;
   std::vector<SectionForces> forces;
   for (int at = level; at >= std::max(0, level - 1); --at)
     forces.push_back({a.section_force[at] * coefficients, a.section_shear[at] * coefficients});
   const double largest =
       std::max({forces[0].normal.lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), scale});
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
-    RimState state;
+    HoleState state;
     state.peak_hoop = state.peak_angle = std::nan(""), state.peak_error = unknown_stress;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
     std::vector<int> axes;

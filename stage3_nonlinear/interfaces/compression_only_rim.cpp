@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/interfaces/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/compression_only_rim.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace fastjoint::stage3 {
 
-RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double gap, double mu)
+CompressionOnlyRim::CompressionOnlyRim(const rim::Harmonics& pressures, double stiffness, double gap, double mu)
     : pressures_(pressures), stiffness_(stiffness), gap_(gap), mu_(mu) {
   constexpr double points_per_wave = 8;
   const double waves = std::max(1.0, pressures.highest * pressures.sweep / rim::full_turn);
@@ -20,7 +20,7 @@ RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double
   samples_ = std::move(samples);
 }
 
-double RimContact::end_between(const VectorXd& m, double low, double high, bool rises) const {
+double CompressionOnlyRim::end_between(const VectorXd& m, double low, double high, bool rises) const {
   const double sign = rises ? 1 : -1;
   return rising_root(
       [&](double angle) {
@@ -30,7 +30,7 @@ double RimContact::end_between(const VectorXd& m, double low, double high, bool 
       low, high);
 }
 
-double RimContact::extremum(const VectorXd& m, double angle, double sign) const {
+double CompressionOnlyRim::extremum(const VectorXd& m, double angle, double sign) const {
   const double step = samples_->angles[1] - samples_->angles[0];
   double low = angle - step, high = angle + step;
   if (!pressures_.is_whole())
@@ -57,7 +57,7 @@ double RimContact::extremum(const VectorXd& m, double angle, double sign) const 
   return 0.5 * (low + high);
 }
 
-std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const VectorXd& depth) const {
+std::vector<CompressionOnlyRim::Point> CompressionOnlyRim::points(const VectorXd& m, const VectorXd& depth) const {
   const Index n = depth.size(), last = n - 1;
   std::vector<Point> points;
   points.reserve(n + 2);
@@ -76,7 +76,7 @@ std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const Vecto
   return points;
 }
 
-Touching RimContact::touching(const VectorXd& m) const {
+Touching CompressionOnlyRim::touching(const VectorXd& m) const {
   const VectorXd depth = samples_->distributions * m - VectorXd::Constant(samples_->angles.size(), gap_);
   const auto all = points(m, depth);
   Touching result{{}, MatrixXd::Zero(size(), size())};
@@ -98,11 +98,7 @@ Touching RimContact::touching(const VectorXd& m) const {
   return result;
 }
 
-VectorXd RimContact::forces(const Touching& at, const VectorXd& m) const {
-  return stiffness_ * (at.gram * m - gap_ * at.gram.col(0));
-}
-
-double RimContact::deepest(const VectorXd& m, double sign) const {
+double CompressionOnlyRim::deepest(const VectorXd& m, double sign) const {
   Index at = 0;
   (sign * (samples_->distributions * m)).maxCoeff(&at);
   return extremum(m, samples_->angles[at], sign);

@@ -15,7 +15,7 @@
 namespace fastjoint::stage3 {
 
 /// One hole of a plate at one increment: its quantities in RESULT.h5, and what the summary and warnings ask of it.
-struct RimState : SectionState {
+struct HoleState : SectionState {
   double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
   double peak_hoop = 0, peak_angle = 0, peak_error = 0;  ///< NaN, NaN and infinite where it is not known
   VectorXd hoop = {};                                    ///< HoopPeak::at_points; none where there is no peak
@@ -49,9 +49,9 @@ struct LoadedDiscs {
 /// @param coefficients  Of the unit cases, (n_cases).
 /// @param scale    Reference force of the joint's residuals, for rounding.
 /// @param rims     Rims with waves and a closed form; other holes have no peak: NaN with an infinite error.
-[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, const formats::Border& border,
-                                               int level, const VectorXd& coefficients, const LoadedDiscs& discs,
-                                               double scale, const std::vector<std::optional<LoadedRim>>& rims);
+[[nodiscard]] std::vector<HoleState> hole_states(const formats::PlateStresses& a, const formats::Border& border,
+                                                 int level, const VectorXd& coefficients, const LoadedDiscs& discs,
+                                                 double scale, const std::vector<std::optional<LoadedRim>>& rims);
 
 /// The holes of a plate, without points.
 [[nodiscard]] formats::HoleList holes_of(const formats::PlateStresses& a);

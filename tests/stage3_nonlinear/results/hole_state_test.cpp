@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/rim_state.hpp"
+#include "stage3_nonlinear/results/hole_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "common/pfem/material.hpp"
 
 namespace fastjoint::stage3 {
-namespace rim_state_test {
+namespace hole_state_test {
 
 using Eigen::Index;
 
@@ -88,20 +88,20 @@ Plate flat() {
 }
 
 /// The state in which the second case acts once.
-RimState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::VectorXd& friction) {
-  const auto states = rim_states(
+HoleState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::VectorXd& friction) {
+  const auto states = hole_states(
       model.stresses, {}, model.level, Eigen::Vector2d(2, 1),
       {std::vector<std::string>(model.axes.size(), model.holes[0]), model.axes, bearing, friction}, 0, {model.rim});
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
 }
 
-RimState state(const Plate& model, double bearing, double friction) {
+HoleState state(const Plate& model, double bearing, double friction) {
   return state(model, Eigen::VectorXd::Constant(1, bearing), Eigen::VectorXd::Constant(1, friction));
 }
 
 /// The top of a function between points, wherever it is.
-TEST(RimState, PeakBetweenPoints) {
+TEST(HoleState, PeakBetweenPoints) {
   for (double top = -180; top < 180; top += 0.7) {
     const auto s = state(
         plate([&](double t) { return std::cos(t - top * degree) + 0.3 * std::cos(2 * (t - top * degree)); }), 0, 0);
@@ -112,7 +112,7 @@ TEST(RimState, PeakBetweenPoints) {
   }
 }
 
-TEST(RimState, PeakAtTheEndOfAQuarter) {
+TEST(HoleState, PeakAtTheEndOfAQuarter) {
   const auto s = state(plate({highest, 0, rim::full_turn / 4}, [](double t) { return 1 - 2 * std::cos(2 * t); }), 0, 0);
   EXPECT_NEAR(s.peak_hoop, 3, 1e-8);
   EXPECT_NEAR(s.peak_angle, 90, 1e-3);
@@ -120,7 +120,7 @@ TEST(RimState, PeakAtTheEndOfAQuarter) {
 
 /// Waves that are told from long to short: where each pair falls to half of the one before, all to come are as much as
 /// the last pair.
-TEST(RimState, ErrorHasWhatTheWavesLeaveOut) {
+TEST(HoleState, ErrorHasWhatTheWavesLeaveOut) {
   constexpr int n = 11;
   Plate model = plate({n}, [](double t) {
     double sum = 0;
@@ -134,7 +134,7 @@ TEST(RimState, ErrorHasWhatTheWavesLeaveOut) {
 }
 
 /// Where friction jumps, the hoop stress is singular: however large the number there, it is no peak.
-TEST(RimState, NeverReportsTheJumpOfFriction) {
+TEST(HoleState, NeverReportsTheJumpOfFriction) {
   const auto top = [](double at) { return plate([at](double t) { return std::cos(t - at * degree); }); };
   const auto off = [&](double at, double force, double friction) {
     return std::abs(std::remainder(state(top(at), force, friction).peak_angle - at, 360));
@@ -152,11 +152,11 @@ Plate plane_plate(const Function& hoop) {
   return model;
 }
 
-RimState plane_state(const Plate& model, const Eigen::Vector2d& bearing, double friction_share) {
+HoleState plane_state(const Plate& model, const Eigen::Vector2d& bearing, double friction_share) {
   return state(model, bearing, friction_share * bearing);
 }
 
-TEST(RimState, BearingLoadsOfBothDirections) {
+TEST(HoleState, BearingLoadsOfBothDirections) {
   const auto s = plane_state(plane_plate([](double) { return 8.0; }), {3, -4}, 0);
   EXPECT_DOUBLE_EQ(s.bearing_load, 3);
   EXPECT_DOUBLE_EQ(s.bearing_load_y, -4);
@@ -164,7 +164,7 @@ TEST(RimState, BearingLoadsOfBothDirections) {
 }
 
 /// A hole with sections across x alone does not know what its fastener's force along y leaves.
-TEST(RimState, BypassIsUnknownAlongAnAxisWithoutSections) {
+TEST(HoleState, BypassIsUnknownAlongAnAxisWithoutSections) {
   const Plate one = plane_plate([](double) { return 8.0; });
   EXPECT_DOUBLE_EQ(plane_state(one, {2, 1e-6}, 0).bypass_load, 3);
   const auto s = plane_state(one, {2, 7}, 0);
@@ -173,7 +173,7 @@ TEST(RimState, BypassIsUnknownAlongAnAxisWithoutSections) {
 }
 
 /// Each component's friction jumps at its own bearing direction.
-TEST(RimState, FrictionJumpsAtBothBearingDirections) {
+TEST(HoleState, FrictionJumpsAtBothBearingDirections) {
   const auto found = [&](double at, double x, double y) {
     const auto s = plane_state(plane_plate([at](double t) { return std::cos(t - at * degree); }), {x, y}, 0.1);
     return std::abs(std::remainder(s.peak_angle - at, 360)) < 1;
@@ -187,14 +187,14 @@ TEST(RimState, FrictionJumpsAtBothBearingDirections) {
 }
 
 /// A force along x but for rounding, or nearly, has its peak beside the hole, where y would bear.
-TEST(RimState, HardlyAnyFrictionHidesNoPeak) {
+TEST(HoleState, HardlyAnyFrictionHidesNoPeak) {
   const Plate model = plane_plate([](double t) { return std::sin(t) * std::sin(t); });
   for (const double y : {0.0, 1e-14, -1e-14, 0.03})
     EXPECT_NEAR(std::abs(plane_state(model, {1, y}, 0.1).peak_angle), 90, 1e-3) << y;
   EXPECT_NEAR(plane_state(model, {1, 0.2}, 0.1).peak_angle, -90, 1e-3) << "the other side";
 }
 
-TEST(RimState, BypassIsWhatLeavesOnTheBearingSide) {
+TEST(HoleState, BypassIsWhatLeavesOnTheBearingSide) {
   EXPECT_DOUBLE_EQ(state(flat(), 2, 0).bypass_load, 3);
   EXPECT_DOUBLE_EQ(state(flat(), -2, 0).bypass_load, 5);
   EXPECT_DOUBLE_EQ(state(flat(), 0, 0).bypass_load, 4);
@@ -204,7 +204,7 @@ TEST(RimState, BypassIsWhatLeavesOnTheBearingSide) {
   EXPECT_DOUBLE_EQ(state(one, -1.5, -0.5).bypass_load, 5);
 }
 
-TEST(RimState, BearingStressAndConcentrations) {
+TEST(HoleState, BearingStressAndConcentrations) {
   const auto s = state(flat(), -2, 0);
   EXPECT_DOUBLE_EQ(s.bearing_stress, 4);
   EXPECT_DOUBLE_EQ(s.bearing_load, -2);
@@ -221,7 +221,7 @@ Plate pressed(const rim::Harmonics& waves, const Function& pressure) {
 Plate pressed(const Function& pressure) { return pressed({highest}, pressure); }
 
 /// Springs on the right half alone: right for a fastener that pushes to +x, not for one to -x.
-TEST(RimState, SpringsOnTheWrongArcPull) {
+TEST(HoleState, SpringsOnTheWrongArcPull) {
   EXPECT_FALSE(state(pressed([](double t) { return std::max(std::cos(t), 0.0); }), 1, 0).pulls);
   const Plate wrong = pressed([](double t) { return -std::max(std::cos(t), 0.0); });
   EXPECT_TRUE(state(wrong, -1, 0).pulls);
@@ -232,7 +232,7 @@ TEST(RimState, SpringsOnTheWrongArcPull) {
 }
 
 /// The pressure p = 2 (cos + 0.2 sin + 3 cos 2) acts over d t = 0.5: the force along x is pi d t, across it a fifth.
-TEST(RimState, ForceAcrossIsThatOfThePressure) {
+TEST(HoleState, ForceAcrossIsThatOfThePressure) {
   const auto pressure = [](double t) { return 2 * (std::cos(t) + 0.2 * std::sin(t) + 3 * std::cos(2 * t)); };
   const double along = std::numbers::pi * 0.5;
   const auto s = state(pressed(pressure), along, 0);
@@ -243,7 +243,7 @@ TEST(RimState, ForceAcrossIsThatOfThePressure) {
   EXPECT_NEAR(state(y, 0.2 * along, 0).across, along, 1e-12);
 }
 
-TEST(RimState, NothingIsKnownToHoldADiscAcrossOnALineOfSymmetryOrInThePlane) {
+TEST(HoleState, NothingIsKnownToHoldADiscAcrossOnALineOfSymmetryOrInThePlane) {
   const auto pressure = [](double t) { return std::sin(t); };
   EXPECT_TRUE(std::isnan(state(pressed({highest, 0, rim::full_turn / 2}, pressure), 1, 0).across))
       << "symmetry holds it";
@@ -256,7 +256,7 @@ TEST(RimState, NothingIsKnownToHoldADiscAcrossOnALineOfSymmetryOrInThePlane) {
   EXPECT_TRUE(std::isnan(state(open, 1, 0).across)) << "no disc";
 }
 
-TEST(RimState, SpringsAllAroundPullOnTheSideThatDoesNotBear) {
+TEST(HoleState, SpringsAllAroundPullOnTheSideThatDoesNotBear) {
   const auto all = state(pressed([](double t) { return std::cos(t + 0.01) + 0.5; }), 1, 0);
   EXPECT_TRUE(all.filled);
   EXPECT_NEAR(all.pull, 0.5, 1e-2);
@@ -266,7 +266,7 @@ TEST(RimState, SpringsAllAroundPullOnTheSideThatDoesNotBear) {
   EXPECT_FALSE(state(pressed([](double) { return 0.0; }), 1, 0).filled) << "an open hole";
 }
 
-TEST(RimState, NoConcentrationOnAnUnloadedSection) {
+TEST(HoleState, NoConcentrationOnAnUnloadedSection) {
   Plate model = flat();
   model.stresses.section_force[1].setZero();
   EXPECT_EQ(state(model, 1, 0).gross_concentration, 0);
@@ -274,7 +274,7 @@ TEST(RimState, NoConcentrationOnAnUnloadedSection) {
 }
 
 /// Two degrees of a coarse mesh may agree by accident; the sheet's stiffness still shows how coarse it is.
-TEST(RimState, BypassErrsAtLeastAsMuchAsTheSheet) {
+TEST(HoleState, BypassErrsAtLeastAsMuchAsTheSheet) {
   Plate model = flat();
   EXPECT_EQ(state(model, 1, 0).bypass_load, 3);
   EXPECT_DOUBLE_EQ(state(model, 1, 0).bypass_error, 1e-2 * 5);
@@ -282,14 +282,14 @@ TEST(RimState, BypassErrsAtLeastAsMuchAsTheSheet) {
   EXPECT_NEAR(state(model, 1, 0).bypass_error, 0.3, 1e-14);
 }
 
-TEST(RimState, OneDegreeAloneKnowsNoError) {
+TEST(HoleState, OneDegreeAloneKnowsNoError) {
   Plate model = flat();
   model.level = 0;
   model.rim->degrees.pop_back();
   EXPECT_EQ(state(model, 1, 0).peak_error, std::numeric_limits<double>::infinity());
 }
 
-TEST(RimState, NoPeakIsKnownWithoutWaves) {
+TEST(HoleState, NoPeakIsKnownWithoutWaves) {
   Plate model = flat();
   model.rim.reset();
   EXPECT_TRUE(std::isnan(state(model, 1, 0).peak_hoop));
@@ -298,5 +298,5 @@ TEST(RimState, NoPeakIsKnownWithoutWaves) {
   EXPECT_EQ(state(model, 1, 0).bypass_load, 3);
 }
 
-}  // namespace rim_state_test
+}  // namespace hole_state_test
 }  // namespace fastjoint::stage3

@@ -24,14 +24,14 @@ struct Touching {
 /// The unknowns are the moments m of the disc's normal displacement w relative to the sheet, length: the means over the
 /// rim of w times each distribution of pressure. The forces of the springs on them are K A times the moments of
 /// max(w - gap, 0), the gradient of a convex function of m.
-class RimContact {
+class CompressionOnlyRim {
  public:
   /// @param stiffness K A: modulus of the springs times area of the rim, force / length. @param mu Friction.
-  RimContact(const rim::Harmonics& pressures, double stiffness, double gap, double mu = 0);
+  CompressionOnlyRim(const rim::Harmonics& pressures, double stiffness, double gap, double mu = 0);
 
   /// The same rim with another gap and friction.
-  [[nodiscard]] RimContact with(double gap, double mu) const {
-    RimContact other = *this;
+  [[nodiscard]] CompressionOnlyRim with(double gap, double mu) const {
+    CompressionOnlyRim other = *this;
     other.gap_ = gap;
     other.mu_ = mu;
     return other;
@@ -46,7 +46,9 @@ class RimContact {
   /// Part of the rim on which w > gap, with exact ends.
   [[nodiscard]] Touching touching(const VectorXd& m) const;
   /// Forces for given arcs of contact, (size), force.
-  [[nodiscard]] VectorXd forces(const Touching& at, const VectorXd& m) const;
+  [[nodiscard]] VectorXd forces(const Touching& at, const VectorXd& m) const {
+    return stiffness_ * (at.gram * m - gap_ * at.gram.col(0));
+  }
   /// Angle at which sign * w is largest, radians.
   [[nodiscard]] double deepest(const VectorXd& m, double sign = 1) const;
   /// w - gap, length.
