@@ -212,7 +212,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   std::vector<std::string> texts, failures;
   for (const std::size_t at : chosen) {
     SolvedCase its = solve_case(arguments, scene, joint, cases, cracks, at, chosen.size() == 1, log);
-    append(spots, std::move(its.spots), result.load_factor.size());
+    append(spots, std::move(its.spots));
     append(result, scene.cases[at].name, std::move(its.result));
     found.add(scene.cases[at].name, its.warnings);
     if (!its.failure.empty()) failures.push_back(std::move(its.failure));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/joint_result.hpp"
 
+#include <array>
 #include <stdexcept>
 
 namespace fastjoint::formats {
@@ -143,16 +144,15 @@ void write_sensitivity(h5::Writer& file, const SensitivityHistory& a, Eigen::Ind
   }
 }
 
-/// @param rows Extremes or what is derived from them.
+/// @param rows Extremes or what is derived from them. @param meanings Of their largest and of their smallest.
 template <class Rows>
 void write_extremes(h5::Writer& file, const std::string& group, const Rows& rows, const std::string& unit,
-                    Eigen::Index steps) {
+                    const std::array<const char*, 2>& meanings, Eigen::Index steps) {
   const Eigen::Index k = std::ssize(rows);
   const h5::Allowed row = h5::integers(0, int(steps) - 1);
-  file(group + "largest", Column{rows, &Extremes::largest}, {k}, unit, "largest value over all increments of all cases",
-       h5::infinite_too);
+  file(group + "largest", Column{rows, &Extremes::largest}, {k}, unit, meanings[0], h5::infinite_too);
   file(group + "largest_at", Column{rows, &Extremes::largest_at}, {k}, "1", "row where it stands", row);
-  file(group + "smallest", Column{rows, &Extremes::smallest}, {k}, unit, "smallest value", h5::infinite_too);
+  file(group + "smallest", Column{rows, &Extremes::smallest}, {k}, unit, meanings[1], h5::infinite_too);
   file(group + "smallest_at", Column{rows, &Extremes::smallest_at}, {k}, "1", "row where it stands", row);
 }
 
@@ -162,7 +162,8 @@ void write_envelope(h5::Writer& file, const std::vector<EnvelopeTable>& all, Eig
   for (const auto& [quantity, unit, rows] : all) {
     const std::string group = "envelope/" + quantity + "/";
     file(group + "of", Column{rows, &Extremes::of}, {any}, "1", "shear plane, plate:hole, plate:external or plate:tip");
-    write_extremes(file, group, rows, unit, steps);
+    write_extremes(file, group, rows, unit, {"largest value over all increments of all cases", "smallest value"},
+                   steps);
   }
 }
 
@@ -201,7 +202,7 @@ void write_stress_ranges(h5::Writer& file, const std::vector<StressRange>& a, Ei
   file(group + "range", Column{a, &StressRange::range}, {r}, stress, "largest less smallest hoop stress there");
   file(group + "error", Column{a, &StressRange::error}, {r}, stress,
        "estimated error of it: the sum of those of the hole's peaks at both increments", h5::infinite_too);
-  write_extremes(file, group, a, stress, steps);
+  write_extremes(file, group, a, stress, {"largest hoop stress there", "smallest hoop stress there"}, steps);
 }
 
 /// What the file says of the whole joint, for both directions.

@@ -173,7 +173,8 @@ VectorXd JointEquations::q_at(double load_factor) const {
 
 VectorXd JointEquations::rigid_forces(double load_factor) const {
   if (starts_unloaded()) return load_factor * q_at(load_factor);
-  const VectorXd by_loads = rigid_forces_by(*system, load_at(load_factor)), &offset = parameters.offset;
+  const VectorXd& offset = parameters.offset;
+  VectorXd by_loads = rigid_forces_by(*system, load_at(load_factor));
   if (offset.size() == 0) return by_loads;
   return by_loads + without_rounding(system->S_ud.leftCols(offset.size()) * offset, force_of_offsets());
 }

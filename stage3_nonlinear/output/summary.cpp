@@ -67,7 +67,7 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
   const VectorXd share = shares(joint, state.transferred_first);
   const VectorXd delta = magnitudes(step.delta, a), F = magnitudes(step.F, a);
   for (Index j = 0; j < std::ssize(F); ++j) {
-    Table::Cells cells{joint.short_name(joint.planes[j]), delta[j], F[j]};
+    Table::Cells cells{joint.short_name(joint.planes[j]), delta[j] + 0.0, F[j] + 0.0};
     for (Index d = 0; d < n_components; ++d) cells.emplace_back(rounded(step.F[j * a + d], state.largest_force));
     cells.insert(cells.end(), {state.transferred_first[j], share[j]});
     table.row(cells);

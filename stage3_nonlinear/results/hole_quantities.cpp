@@ -19,10 +19,10 @@ struct HoleQuantity {
   std::optional<columns::Output> output{};
 };
 
-/// Severity by bearing: peak hoop stress over bearing stress.
+/// Peak hoop stress over bearing stress; 0 where the bearing stress is less than a twentieth of the peak.
 double bearing_concentration(const HoleState& hole) {
-  constexpr double most = 1000;  // beyond, the peak has nothing to do with the fastener
-  return std::abs(hole.peak_hoop) < most * hole.bearing_stress ? hole.peak_hoop / hole.bearing_stress : 0;
+  constexpr double max_ratio = 20;  // beyond, the peak has nothing to do with the fastener
+  return std::abs(hole.peak_hoop) < max_ratio * hole.bearing_stress ? hole.peak_hoop / hole.bearing_stress : 0;
 }
 
 const std::vector<HoleQuantity>& all_of_a_hole() {

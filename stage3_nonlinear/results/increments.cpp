@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/errors.hpp"
 
@@ -83,7 +84,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
       slopes = state_slopes(all.numbers, point);
       all.sensitivity.push_back(sensitivity(slopes, point));
     }
-    append(all.spots, spots_of(state), std::ssize(all.states));
+    append(all.spots, spots_of(state));
     if (!wanted.keep_loaded_rims)
       for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
     all.states.push_back(std::move(state));

@@ -13,16 +13,22 @@ namespace {
 
 using formats::Margin;
 
-/// The worst increment of an item; none if it is not known at any.
-/// @param solved Set to true if there are increments of its check's cases.
-std::optional<Margin> worst_of(const CheckedItem& item, const formats::JointResult& a, const JointColumns& columns,
-                               bool& solved) {
+/// The worst increment of an item.
+struct WorstIncrement {
+  std::optional<Margin> margin{};  ///< none if it is not known at any
+  bool solved = false;             ///< there are increments of its check's cases
+  bool known = true;               ///< at all of these
+};
+
+WorstIncrement worst_of(const CheckedItem& item, const formats::JointResult& a, const JointColumns& columns) {
   const CheckScene& check = *item.check;
-  std::optional<Margin> worst;
+  WorstIncrement found;
+  std::optional<Margin>& worst = found.margin;
   for (int step = 0; step < a.load_factor.size(); ++step) {
     if (!check.counts(a.case_name[a.case_of[step]])) continue;
-    solved = true;
+    found.solved = true;
     const Applied now = item.at(columns, step);
+    found.known &= std::isfinite(now.applied);
     if (!std::isfinite(now.applied)) continue;
     const double margin = item.margin(now);
     if (worst && !(margin < worst->margin)) continue;
@@ -31,7 +37,7 @@ std::optional<Margin> worst_of(const CheckedItem& item, const formats::JointResu
     worst = {check.name,    item.of,     item.formula,   inputs,        item.unit, margin,
              now.allowable, now.applied, now.edge_ratio, now.direction, step};
   }
-  return worst;
+  return found;
 }
 
 }  // namespace
@@ -43,10 +49,12 @@ std::vector<Margin> margins(const JointScene& scene, const std::vector<CheckedIt
   std::vector<Margin> all;
   std::map<std::pair<const CheckScene*, std::string>, std::vector<std::string>> missing;
   for (const auto& item : items) {
-    bool solved = false;
-    if (auto worst = worst_of(item, result, columns, solved))
-      all.push_back(std::move(*worst));
-    else if (result.load_factor.size() > 0)
+    const auto [worst, solved, known] = worst_of(item, result, columns);
+    if (worst) all.push_back(*worst);
+    if (worst && !known)
+      missing[{item.check, fmt::format("{} (at some increments, which do not count)", item.unknown)}].push_back(
+          item.of);
+    if (!worst && result.load_factor.size() > 0)
       missing[{item.check, solved ? item.unknown : "none of its cases was solved"}].push_back(item.of);
   }
   for (const auto& [of, names] : missing) left_out.push_back(left_out_warning(scene, *of.first, of.second, names));
@@ -56,16 +64,16 @@ std::vector<Margin> margins(const JointScene& scene, const std::vector<CheckedIt
 }
 
 std::vector<program::Warning> edge_warnings(const JointScene& scene, const std::vector<Margin>& margins) {
-  constexpr double least = 1.5;
+  constexpr double min_edge_ratio = 1.5;
   const auto worst = std::ranges::min_element(margins, {}, &Margin::edge_ratio);
-  if (worst == margins.end() || !(worst->edge_ratio < least)) return {};
-  const auto n = std::ranges::count_if(margins, [](const Margin& each) { return each.edge_ratio < least; });
+  if (worst == margins.end() || !(worst->edge_ratio < min_edge_ratio)) return {};
+  const auto n = std::ranges::count_if(margins, [](const Margin& each) { return each.edge_ratio < min_edge_ratio; });
   return {{"edge-distance-small",
            fmt::format(
                "{}: {} is {:.3g} diameters from the edge along its load{}: below {:g} allowables of bearing are not "
                "published, and here those of the check fall linearly to 0 where the rim touches the edge",
                scene.file, worst->of, worst->edge_ratio,
-               n > 1 ? fmt::format(" (the worst of {})", program::counted(n, "margin")) : "", least)}};
+               n > 1 ? fmt::format(" (the worst of {})", program::counted(n, "margin")) : "", min_edge_ratio)}};
 }
 
 }  // namespace fastjoint::stage3

@@ -5,41 +5,39 @@
 #include <cmath>
 #include <functional>
 
-#include "common/infinite.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::Index;
 
-/// Share by which stresses differ that are equal but for rounding: the first of them counts.
-constexpr double same = 1e-9;
+/// Relative difference of stresses that are equal but for rounding: the first of them counts.
+constexpr double same_stress = 1e-9;
 
-/// Puts later numbers in place of those that they exceed, and where they are not known.
-void take(const Eigen::ArrayXXd& later, const Eigen::ArrayXXi& at, double sign, Eigen::ArrayXXd& most,
-          Eigen::ArrayXXi& most_at) {
-  const auto exceeds = (sign * (later - most) > same * most.abs() || later.isNaN()).eval();
-  most = exceeds.select(later, most);
-  most_at = exceeds.select(at, most_at);
+/// Updates the largest stresses of all spots, or with a negative sign the smallest, and the increments where they are.
+void update(const Eigen::ArrayXXd& later, const Eigen::ArrayXXi& at, double sign, Eigen::ArrayXXd& extreme,
+            Eigen::ArrayXXi& extreme_at) {
+  const auto exceeds = (sign * (later - extreme) > same_stress * extreme.abs() || extreme.isNaN()).eval();
+  extreme = exceeds.select(later, extreme);
+  extreme_at = exceeds.select(at, extreme_at);
 }
 
-/// The first spot of the largest range of a hole; -1 without one.
+/// The first spot of the largest range of a hole; -1 if none is known.
 Index widest_spot(const Eigen::ArrayXd& range) {
-  double most = -infinite;
   Index spot = -1;
   for (Index i = 0; i < range.size(); ++i)
-    if (range[i] > most + same * std::abs(most) || (spot < 0 && std::isfinite(range[i]))) most = range[i], spot = i;
+    if (std::isfinite(range[i]) && (spot < 0 || range[i] > (1 + same_stress) * range[spot])) spot = i;
   return spot;
 }
 
 }  // namespace
 
-void append(std::vector<SpotExtremes>& all, std::vector<SpotExtremes> later, Index n_before) {
-  for (auto& each : later) each.largest_at += int(n_before), each.smallest_at += int(n_before);
+void append(std::vector<SpotExtremes>& all, std::vector<SpotExtremes> later) {
   if (all.empty()) return all.swap(later);
   for (std::size_t i = 0; i < later.size(); ++i) {
-    take(later[i].largest, later[i].largest_at, 1, all[i].largest, all[i].largest_at);
-    take(later[i].smallest, later[i].smallest_at, -1, all[i].smallest, all[i].smallest_at);
+    SpotExtremes& its = all[i];
+    update(later[i].largest, later[i].largest_at + its.n_increments, 1, its.largest, its.largest_at);
+    update(later[i].smallest, later[i].smallest_at + its.n_increments, -1, its.smallest, its.smallest_at);
+    its.n_increments += later[i].n_increments;
   }
 }
 
@@ -52,12 +50,16 @@ std::vector<formats::StressRange> stress_ranges(const std::vector<SpotExtremes>&
     for (Index hole = 0; hole < its.largest.cols(); ++hole) {
       const Index spot = widest_spot(its.largest.col(hole) - its.smallest.col(hole));
       if (spot < 0) continue;
+      const double largest = its.largest(spot, hole), smallest = its.smallest(spot, hole);
+      const double nothing = same_stress * std::max(std::abs(largest), std::abs(smallest));
+      if (!(largest - smallest > nothing)) continue;
       const formats::PlateHistory& plate = result.plates[i];
       const auto error = [&](int row) { return plate.columns["rim/peak_error"](row, hole); };
+      const auto rounded = [&](double stress) { return std::abs(stress) > nothing ? stress : 0; };
       formats::StressRange range;
       range.of = plate.name + ":" + plate.holes.hole[hole];
       range.angle = std::remainder(360.0 * double(spot) / double(its.largest.rows()), 360);
-      range.largest = its.largest(spot, hole), range.smallest = its.smallest(spot, hole);
+      range.largest = rounded(largest), range.smallest = rounded(smallest);
       range.largest_at = its.largest_at(spot, hole), range.smallest_at = its.smallest_at(spot, hole);
       range.range = range.largest - range.smallest;
       range.error = error(range.largest_at) + error(range.smallest_at);

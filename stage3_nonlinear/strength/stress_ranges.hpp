@@ -11,10 +11,11 @@ namespace fastjoint::stage3 {
 /// Largest and smallest hoop stress at each spot of the rims of a plate over increments. The spots of a hole stand in
 /// equal steps around its whole circle, the first at 0 degrees.
 struct SpotExtremes {
-  Eigen::ArrayXXd largest, smallest;        ///< (spots, holes) stress; NaN where not known at one of the increments
+  Eigen::ArrayXXd largest, smallest;        ///< (spots, holes) stress; NaN where not known at any increment
   Eigen::ArrayXXi largest_at, smallest_at;  ///< (spots, holes) increments where they are, from 0
+  int n_increments = 1;
 
-  /// Those of one increment alone. @param hoop (spots, holes) stress; NaN where not known.
+  /// Extremes of one increment alone. @param hoop (spots, holes) stress; NaN where not known.
   explicit SpotExtremes(const Eigen::MatrixXd& hoop)
       : largest(hoop),
         smallest(hoop),
@@ -22,11 +23,11 @@ struct SpotExtremes {
         smallest_at(largest_at) {}
 };
 
-/// Takes in later increments of the same plates. @param n_before How many are already in.
-void append(std::vector<SpotExtremes>& all, std::vector<SpotExtremes> later, Eigen::Index n_before);
+/// Takes in later increments of the same plates.
+void append(std::vector<SpotExtremes>& all, std::vector<SpotExtremes> later);
 
-/// Of each hole the spot whose stress varies most over all increments, the largest range first; none of holes without a
-/// spot that is known at all increments, and with less than two increments.
+/// Finds the spot of each hole whose stress varies most over all increments at which it is known, the largest range
+/// first. Holes whose stress does not vary, or is known at no spot, have none, and neither has a single increment.
 /// @param plates As those of the result, whose errors of the peaks give that of a range.
 [[nodiscard]] std::vector<formats::StressRange> stress_ranges(const std::vector<SpotExtremes>& plates,
                                                               const formats::JointResult& result);

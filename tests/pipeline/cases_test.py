@@ -75,7 +75,7 @@ def hoop(file):
 
 def ranges_by_brute_force(kind, ranges, singles, with_jumps):
     """The stress range of every hole against hoop stresses of single runs at points one degree apart: its spot lies between two of them.
-    Around jumps of friction no spot counts; where contact with friction ends the stress has a cusp, which may stand between two points."""
+    Around jumps of friction a spot does not count in that increment; where contact with friction ends the stress has a cusp, which may stand between two points."""
     assert sorted(ranges["of"]) == sorted(singles[0]) and np.all(np.diff(ranges["range"].astype(np.float32)) <= 0) and np.all(ranges["error"] > 0)
     missed = 0
     for i, of in enumerate(ranges["of"]):

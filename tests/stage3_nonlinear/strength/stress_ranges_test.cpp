@@ -43,13 +43,12 @@ TEST(StressRanges, ByBruteForce) {
     std::vector<SpotExtremes> all;
     for (Index step = 0; step < steps;) {
       std::vector<SpotExtremes> batch;
-      const Index first = step;
       do {
         std::vector<SpotExtremes> one;
         for (const MatrixXd& each : hoop[step]) one.emplace_back(each);
-        append(batch, std::move(one), step - first);
+        append(batch, std::move(one));
       } while (++step < steps && normal(random) > 0);
-      append(all, std::move(batch), first);
+      append(all, std::move(batch));
     }
     double before = std::numeric_limits<double>::infinity();
     const auto ranges = stress_ranges(all, result_of(n_plates, n_holes, steps));
@@ -62,11 +61,13 @@ TEST(StressRanges, ByBruteForce) {
       for (Index spot = 0; spot < n_spots; ++spot) {
         Eigen::VectorXd at(steps);
         for (Index step = 0; step < steps; ++step) at[step] = hoop[step][plate](spot, hole);
-        if (at.array().isNaN().any()) continue;
-        widest = std::max(widest, at.maxCoeff() - at.minCoeff());
+        if (at.array().isNaN().all()) continue;
+        const double largest = at.maxCoeff<Eigen::PropagateNumbers>(),
+                     smallest = at.minCoeff<Eigen::PropagateNumbers>();
+        widest = std::max(widest, largest - smallest);
         if (std::abs(std::remainder(each.angle - 360.0 * double(spot) / n_spots, 360)) > 1e-9) continue;
-        EXPECT_EQ(each.largest, at.maxCoeff());
-        EXPECT_EQ(each.smallest, at.minCoeff());
+        EXPECT_EQ(each.largest, largest);
+        EXPECT_EQ(each.smallest, smallest);
         EXPECT_EQ(each.largest, at[each.largest_at]);
         EXPECT_EQ(each.smallest, at[each.smallest_at]);
       }
@@ -76,17 +77,30 @@ TEST(StressRanges, ByBruteForce) {
   }
 }
 
-TEST(StressRanges, NoneOfOneIncrementAndOfHolesWithoutAKnownSpot) {
-  MatrixXd hoop = MatrixXd::Ones(4, 2);
+TEST(StressRanges, NoneOfOneIncrementAndOfHolesWhoseStressDoesNotVaryOrIsNotKnown) {
+  MatrixXd hoop = MatrixXd::Ones(4, 3);
   hoop.col(1).setConstant(std::numeric_limits<double>::quiet_NaN());
   std::vector<SpotExtremes> all;
-  append(all, {SpotExtremes(hoop)}, 0);
-  EXPECT_TRUE(stress_ranges(all, result_of(1, 2, 1)).empty());
-  append(all, {SpotExtremes(2 * hoop)}, 1);
-  const auto ranges = stress_ranges(all, result_of(1, 2, 2));
+  append(all, {SpotExtremes(hoop)});
+  EXPECT_TRUE(stress_ranges(all, result_of(1, 3, 1)).empty());
+  hoop.col(0) *= 2;
+  append(all, {SpotExtremes(hoop)});
+  const auto ranges = stress_ranges(all, result_of(1, 3, 2));
   ASSERT_EQ(ranges.size(), 1U);
   EXPECT_EQ(ranges[0].of, "plate 0:0");
   EXPECT_EQ(ranges[0].range, 1);
+}
+
+/// A spot next to a jump of friction at one increment counts at the others.
+TEST(StressRanges, OfASpotThatIsNotKnownAtOneIncrement) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<SpotExtremes> all;
+  for (const double stress : {missing, 300.0, missing, 100.0}) append(all, {SpotExtremes(MatrixXd{{stress}, {100}})});
+  const auto ranges = stress_ranges(all, result_of(1, 1, 4));
+  ASSERT_EQ(ranges.size(), 1U);
+  EXPECT_EQ(ranges[0].range, 200);
+  EXPECT_EQ(ranges[0].largest_at, 1);
+  EXPECT_EQ(ranges[0].smallest_at, 3);
 }
 
 }  // namespace
