@@ -272,9 +272,10 @@ double CheckedItem::margin(const Applied& now) const {
 }
 
 program::Warning left_out_warning(const JointScene& scene, const CheckScene& check, const std::string& reason,
-                                  const std::vector<std::string>& items) {
-  return {"check-left-out", fmt::format("{}: check \"{}\" is not made for {}: {}", scene.file, check.name,
-                                        program::listed(items), reason)};
+                                  const std::vector<std::string>& items, bool is_made) {
+  return {"check-left-out",
+          fmt::format("{}: check \"{}\" is {} for {}: {}", scene.file, check.name,
+                      is_made ? "made of some increments alone" : "not made", program::listed(items), reason)};
 }
 
 CheckedItems checked_items(const JointScene& scene, const JointModel& joint, const Parameters& parameters) {

@@ -49,8 +49,9 @@ struct CheckedItems {
 [[nodiscard]] CheckedItems checked_items(const JointScene& scene, const JointModel& joint,
                                          const Parameters& parameters);
 
-/// Warning of items that a check leaves out.
+/// Warning of items that a check leaves out. @param is_made It leaves them out at some increments alone.
 [[nodiscard]] program::Warning left_out_warning(const JointScene& scene, const CheckScene& check,
-                                                const std::string& reason, const std::vector<std::string>& items);
+                                                const std::string& reason, const std::vector<std::string>& items,
+                                                bool is_made = false);
 
 }  // namespace fastjoint::stage3

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -47,17 +48,18 @@ std::vector<Margin> margins(const JointScene& scene, const std::vector<CheckedIt
   JointColumns columns{&result.columns, {}};
   for (const auto& plate : result.plates) columns.plates.push_back(&plate.columns);
   std::vector<Margin> all;
-  std::map<std::pair<const CheckScene*, std::string>, std::vector<std::string>> missing;
+  std::map<std::tuple<const CheckScene*, bool, std::string>, std::vector<std::string>> missing;
   for (const auto& item : items) {
     const auto [worst, solved, known] = worst_of(item, result, columns);
     if (worst) all.push_back(*worst);
-    if (worst && !known)
-      missing[{item.check, fmt::format("{} (at some increments, which do not count)", item.unknown)}].push_back(
-          item.of);
-    if (!worst && result.load_factor.size() > 0)
-      missing[{item.check, solved ? item.unknown : "none of its cases was solved"}].push_back(item.of);
+    const char* reason = solved ? item.unknown : "none of its cases was solved";
+    if ((!worst || !known) && result.load_factor.size() > 0)
+      missing[{item.check, worst.has_value(), reason}].push_back(item.of);
   }
-  for (const auto& [of, names] : missing) left_out.push_back(left_out_warning(scene, *of.first, of.second, names));
+  for (const auto& [key, names] : missing) {
+    const auto& [check, is_made, reason] = key;
+    left_out.push_back(left_out_warning(scene, *check, reason, names, is_made));
+  }
   // Equal ones, but for rounding, stay in the order of the joint.
   std::ranges::stable_sort(all, {}, [](const Margin& each) { return std::round(1e9 * each.margin); });
   return all;
