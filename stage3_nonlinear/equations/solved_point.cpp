@@ -98,24 +98,24 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
     return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
   }
   constexpr double max_residual = 1e-6;  // above the imbalance by the tolerance of the solver
-  const bool singular = !(factor_->rcond() > singular_tangent);
+  const bool is_singular = !(factor_->rcond() > singular_tangent);
   const VectorXd unscaled = scale_.cwiseInverse();
   const auto forces_by_unknowns = [&](Index rows) -> MatrixXd {
     return beyond_.times(MatrixXd::Identity(rows, c_.size()), &Response::dF) * unscaled.asDiagonal();
   };
   Slopes slopes;
   if (residual) {
-    const MatrixXd x = singular ? factor_->solve_singular(*residual) : factor_->solve(*residual);
+    const MatrixXd x = is_singular ? factor_->solve_singular(*residual) : factor_->solve(*residual);
     slopes.c = -(unscaled.asDiagonal() * x);
     slopes.F = beyond_.product(&Response::dF, slopes.c);
-    const MatrixXd rest = singular ? MatrixXd(factor_->matrix() * x - *residual) : MatrixXd();
+    const MatrixXd rest = is_singular ? MatrixXd(factor_->matrix() * x - *residual) : MatrixXd();
     for (Index i = 0; i < rest.cols(); ++i)
       if (rest.col(i).norm() > max_residual * residual->col(i).norm()) slopes.no_column.push_back(i);
   } else {  // the transposed system has fewer right-hand sides: one for each force
     const MatrixXd rhs = forces_by_unknowns(equations_.n_plane_rows()).transpose();
-    slopes.F = -(singular ? factor_->solve_singular_transposed(rhs) : factor_->solve_transposed(rhs)).transpose();
+    slopes.F = -(is_singular ? factor_->solve_singular_transposed(rhs) : factor_->solve_transposed(rhs)).transpose();
   }
-  if (!singular) return slopes;
+  if (!is_singular) return slopes;
   const MatrixXd F_free = forces_by_unknowns(slopes.F.rows()) * factor_->free_motions();
   for (Index i = 0; i < F_free.rows(); ++i)
     if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
