@@ -19,7 +19,8 @@ struct Material {
   Eigen::Matrix3d elasticity;                ///< of a laminate the mean over its thickness, stress
   std::optional<Eigen::Matrix2d> expansion;  ///< strain in x and y per degree, if given
   double stack = 0;                          ///< thickness of a laminate, length; 0 of another material
-  /// Of a laminate, largest entry of B over the largest of A and the thickness; 0 of a symmetric stack.
+  /// How much a laminate couples: the largest entry of B over the largest of A and the thickness; 0 of a symmetric
+  /// stack.
   double coupling = 0;
 };
 

@@ -51,7 +51,7 @@ struct Parameters {
   Held held = {};
   VectorXd load_before = {};         ///< loads at load factor 0, force or length; empty: none
   std::vector<FreeShape> free = {};  ///< of each plate, at every load factor
-  // By the free shapes; empty: none.
+  // What follows from the free shapes; empty: none.
   VectorXd offset = {};      ///< (n a) relative displacements of the planes at which the sheets are free, length
   VectorXd free_given = {};  ///< each of loads_of: free displacement of an external that is displaced, length
 

@@ -30,9 +30,9 @@ SectionState section_state(const HoleSections& sections, const std::vector<Secti
   state.net_stress = net.value;
   const Principal gross = larger_principal(sections.gross(forces[0], T, largest));
   const double carried = std::abs(load(gross));
-  // Where sections carry hardly anything of the load, the peak has nothing to do with what they carry.
-  constexpr double hardly = 1e-3;
-  if (!std::isfinite(carried) || !(carried > hardly * std::max(largest, T.norm()))) return state;
+  // The peak has nothing to do with what the sections carry if that is less than this part of the load.
+  constexpr double min_carried = 1e-3;
+  if (!std::isfinite(carried) || !(carried > min_carried * std::max(largest, T.norm()))) return state;
   state.net_direction = net.direction;
   // Interference makes stresses without resultants, so that these are errors only.
   if (forces.size() > 1 && carried < state.bypass_error) return state;
