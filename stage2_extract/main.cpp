@@ -109,8 +109,10 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
     return none ? 0 : double(bytes);
   };
   const double size = size_of(arguments.input);
-  constexpr double copies_to_read = 1.9;      // with one of the file's image, and to extract matrices for loads only
-  constexpr double copies_to_extract = 2.15;  // all matrices are about as large as the file, and copied in its order
+  constexpr double copies_to_read =
+      1.9;  // memory over the file's size: the plate and the image of the file, which is enough for loads only
+  constexpr double copies_to_extract =
+      2.15;  // the same to extract all matrices, which are copied in the order of the file
   require_memory(arguments.input, copies_to_read * size);
   auto plate = formats::read_plate_solution(arguments.input);
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);

@@ -223,9 +223,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
   if (!scene.checks.empty()) {
-    std::vector<program::Warning> left_out = checked.left_out;
-    result.margins = margins(scene, checked.items, result, left_out);
-    warn(log, left_out, warnings);
+    LeftOut left_out = checked.left_out;
+    result.margins = margins(checked.items, result, left_out);
+    warn(log, left_out.warnings(scene), warnings);
     warn(log, edge_warnings(scene, result.margins), warnings);
   }
   for (const auto& each : failures) warnings.push_back({"not-solved", each});
@@ -243,9 +243,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (arguments.flag("--totals")) h5::write_whole_file(arguments.text("--totals"), totals_csv(result));
   if (!arguments.quiet) {
     const int of = result.governing > 0 ? result.case_of[result.governing - 1] : 0;
-    if (chosen.size() > 1) out << case_summary(scene, joint, result);
+    if (chosen.size() > 1) out << case_summary(scene, joint, result) << stress_range_lines(result);
     if (chosen.size() > 1 && !texts[of].empty()) out << fmt::format("case \"{}\":\n", result.case_name[of]);
-    out << texts[of] << stress_range_lines(result) << margin_lines(scene, result);
+    out << texts[of] << (chosen.size() > 1 ? "" : stress_range_lines(result)) << margin_lines(scene, result);
   }
   check_solved(failures, chosen.size());
 }

@@ -58,7 +58,7 @@ void space(File& file, AnySpace& a) {
   }
 }
 
-/// @param n_contact Number of rims of contact, which come first.
+/// The datasets of UnitCases::waves. @param n_contact Number of rims of contact, which come first.
 template <class File, class Waves>
 void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& units) {
   using h5::Column;
@@ -107,6 +107,7 @@ void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& un
   if constexpr (File::reads)
     for (std::size_t i = 0; i < owner.size(); ++i) a[owner[i]].acts.push_back(arcs[i]);
 }
+
 /// Coefficients of thermal expansion; no dataset of a sheet without.
 template <class File, class Expansion>
 void expansion_dataset(File& file, Expansion& a) {

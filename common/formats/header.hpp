@@ -125,7 +125,7 @@ struct UnitCases {
 template <class File, class T>
 using Data = std::conditional_t<File::reads, T, const T>;
 
-/// A reader then compares units only if the file has labels of its units.
+/// The attributes and the input text of every file. A reader compares units only if the file has labels of its units.
 template <class File>
 void header(File& file, Data<File, Header>& a);
 

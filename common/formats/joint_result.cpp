@@ -144,7 +144,8 @@ void write_sensitivity(h5::Writer& file, const SensitivityHistory& a, Eigen::Ind
   }
 }
 
-/// @param rows Extremes or what is derived from them. @param meanings Of their largest and of their smallest.
+/// Writes largest and smallest values and the rows where they stand.
+/// @param rows Extremes or what is derived from them. @param meanings Of the largest and of the smallest value.
 template <class Rows>
 void write_extremes(h5::Writer& file, const std::string& group, const Rows& rows, const std::string& unit,
                     const std::array<const char*, 2>& meanings, Eigen::Index steps) {

@@ -68,7 +68,7 @@ struct Extremes {
   int largest_at = 0, smallest_at = 0;  ///< increments where they are, among all, from 0
 };
 
-/// Those of one quantity.
+/// Extremes of one quantity, a row for each thing that has it.
 struct EnvelopeTable {
   std::string quantity, unit;
   std::vector<Extremes> rows{};

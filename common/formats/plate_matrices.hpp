@@ -41,7 +41,7 @@ struct CrackRows {
   std::vector<StressRows> K_I, K_II;  ///< n_p x (t, n_cases), stress length^1/2 per unit of the case
 };
 
-/// What is known of a plate beside its condensed matrices.
+/// Properties of a plate other than its condensed matrices.
 struct PlateProperties : UnitCases {
   std::string plate_digest{};  ///< digest of the PLATE.h5 that these were extracted from; empty if it has none
   /// Directions, "x" or "y", along which the plate has no support, so that the forces on it are in balance; empty if

@@ -91,8 +91,7 @@ class Planner {
     }
   }
 
-  /// True if a point is in a cell, further from its sides than a margin, or outside it by less than minus a negative
-  /// one.
+  /// True if a point is inside a cell by more than a margin; a negative margin admits points that far outside too.
   static bool is_in(const Cell& cell, const Point& at, double margin) {
     return ((at - cell.low).array() > margin).all() && ((cell.high - at).array() > margin).all();
   }

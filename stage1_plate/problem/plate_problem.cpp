@@ -239,12 +239,13 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
               const Eigen::VectorXd& values, int column, Loads& loads) {
   const auto [dof, sign] = pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element);
   const int n_free = plate.unknowns.n_free.back(), n = count_of(modes);
-  for (int i = 0; i < 2 * n; ++i) {
-    const auto at = modes[i % n] + (i < n ? 0 : plate.numbering.function.rows());
-    if (dof[at] != pfem::fixed_dof)
-      loads.emplace_back(pfem::is_free(dof[at]) ? dof[at] : n_free + pfem::controlled_index(dof[at]), column,
-                         sign[at] * values[i]);
-  }
+  for (const int component : {0, 1})
+    for (int i = 0; i < n; ++i) {
+      const auto at = modes[i] + component * plate.numbering.function.rows();
+      if (dof[at] != pfem::fixed_dof)
+        loads.emplace_back(pfem::is_free(dof[at]) ? dof[at] : n_free + pfem::controlled_index(dof[at]), column,
+                           sign[at] * values[component * n + i]);
+    }
 }
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {

@@ -13,6 +13,7 @@ namespace {
 using input::Value;
 
 const std::string hole_prefix = "hole:";
+// The low and the high border of x, then of y: read_from_border counts on this order.
 const std::vector<std::string> borders = {"left", "right", "bottom", "top"};
 
 /// Reads "hole:ID" as the hole's index.

@@ -82,8 +82,8 @@ VectorXd without_rounding(const VectorXd& q, double largest_load) {
 void set_reference(CondensedSystem& system, const VectorXd& own) {
   constexpr double floating = 1e-13;  // S_ud over the plate's stiffness if the plate has a single fastener
   constexpr double margin = 1.05, negligible = 1e-9, rounding = 1e-12;
-  const Index n = own.size(), a = own.size() == 0 ? 0 : (system.S_ud.rows() - system.n_moments) / n;
-  const std::vector<Index>& rims = system.rims;
+  const Index n = own.size(), a = own.size() == 0 ? 0 : (system.S_ud.rows() - system.n_moments()) / n;
+  const std::vector<Index>& rims = system.rim_sizes;
   MatrixXd& S = system.S_ud;
   const VectorXd of_rows = S.topRows(n * a).cwiseAbs().rowwise().sum();
   for (Index i = 0; i < n * a; ++i) {
@@ -121,7 +121,6 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.D_delta = MatrixXd(Y) - system.rigid.restore(half);
   system.S_ud = Y.transpose() * SY;
   system.S_ud.noalias() -= half.transpose() * half;
-  system.n_moments = joint.n_moments();
   system.held = held;
   system.load_columns = load_columns(joint, held);
   const auto [loads, given] = unit_loads(joint, system.load_columns);
@@ -135,7 +134,7 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.D_load = given + system.rigid.moved(loads);
   system.friction = friction_layout(joint);
   system.H = friction_matrix(joint, system.friction.columns, system.D_delta);
-  system.rims = joint.rim_sizes();
+  system.rim_sizes = joint.rim_sizes();
   set_reference(system, own_stiffness(joint));
   return system;
 }

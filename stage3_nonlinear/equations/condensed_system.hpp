@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <vector>
 
 #include "stage3_nonlinear/equations/rigid_joint.hpp"
@@ -22,8 +23,7 @@ namespace fastjoint::stage3 {
 struct CondensedSystem {
   MatrixXd S_ud;                                ///< (r, r) force / length
   MatrixXd Q;                                   ///< (r, l) forces of rigid fasteners per unit of each load column
-  Index n_moments = 0;                          ///< r - n a
-  std::vector<Index> rims = {};                 ///< numbers of moments of the rims of contact, rim after rim
+  std::vector<Index> rim_sizes = {};            ///< numbers of moments of the rims of contact, rim after rim
   VectorXd Q_scale = VectorXd::Ones(Q.cols());  ///< (l) largest force of each load column, for rounding
   MatrixXd H = MatrixXd(S_ud.rows(), 0);        ///< (r, t) forces by friction, per unit of each amplitude
   std::vector<LoadColumn> load_columns = {};    ///< (l)
@@ -38,6 +38,9 @@ struct CondensedSystem {
   /// S_ud of a plane is only rounding, k is the plate's own stiffness.
   VectorXd stiffness = {};
   MatrixXd metric = {};  ///< (r, r) inverse of W, length / force
+
+  /// r - n a
+  [[nodiscard]] Index n_moments() const { return std::accumulate(rim_sizes.begin(), rim_sizes.end(), Index{0}); }
 };
 
 /// Forces q with rounding errors of a load that does not reach a fastener set to zero, since forces are solved relative

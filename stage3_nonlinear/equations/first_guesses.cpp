@@ -10,10 +10,10 @@ LinearForces linear_forces(const JointEquations& equations, const VectorXd& flex
   MatrixXd A = equations.system->S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
   const VectorXd rhs = equations.rigid_forces(load_factor);
-  LinearForces result{TangentFactor(A, equations.system->rims).solve(rhs), !equations.has_cosine_friction};
+  LinearForces result{TangentFactor(A, equations.system->rim_sizes).solve(rhs), !equations.has_cosine_friction};
   for (int i = 1; i < max_tries && !result.consistent; ++i) {
     const MatrixXd friction = equations.friction_matrix(result.F);
-    result.F = TangentFactor(A + friction, equations.system->rims).solve(rhs);
+    result.F = TangentFactor(A + friction, equations.system->rim_sizes).solve(rhs);
     result.consistent = equations.friction_matrix(result.F) == friction;
   }
   return result;

@@ -16,11 +16,11 @@ namespace {
 /// Adds a small stiffness to vanishing slopes in the Jacobian, not in the residual. It falls with the residual, so that
 /// Newton's method converges fast also if a plate has springs as weak as this (docs/theory.md, section 8.5).
 void add_small_stiffness(const JointEquations& equations, double residual, ContactState& state) {
-  constexpr double most = 1e-7;
-  constexpr double least = 1e-11;  // rounding divided by this is still a small step
-  const double small = std::clamp(most * residual, least, most);
+  constexpr double max_stiffness = 1e-7;
+  constexpr double min_stiffness = 1e-11;  // rounding divided by this is still a small step
+  const double stiffness = std::clamp(max_stiffness * residual, min_stiffness, max_stiffness);
   for (Index i = 0; i < std::ssize(state.parts); ++i)
-    equations.interfaces[i].interface->add_small_stiffness(small, state.parts[i]);
+    equations.interfaces[i].interface->add_small_stiffness(stiffness, state.parts[i]);
 }
 
 /// Throws if a hole has friction here but none in the condensed joint.
@@ -240,23 +240,23 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   problem.residual = [&equations, residual, scale](const VectorXd& x) {
     return residual(contact_state(equations, scale * x));
   };
-  const auto traced = [&equations, residual, scale](const VectorXd& x) {
+  const auto stiffened = [&equations, residual, scale](const VectorXd& x) {
     auto state = contact_state(equations, scale * x);
     add_small_stiffness(equations, residual(state).cwiseAbs().maxCoeff(), state);
     return state;
   };
-  problem.jacobian = [&system, traced, friction](const VectorXd& x) -> MatrixXd {
-    return tangent(system, traced(x), friction);
+  problem.jacobian = [&system, stiffened, friction](const VectorXd& x) -> MatrixXd {
+    return tangent(system, stiffened(x), friction);
   };
   const bool convex = equations.rises && !friction;
   if (convex) problem.gradient = [&system](const VectorXd& r) { return system.metric * r; };
-  problem.solve = [&equations, traced, friction, convex](const VectorXd& x, const VectorXd& r) -> VectorXd {
-    const ContactState state = traced(x);
+  problem.solve = [&equations, stiffened, friction, convex](const VectorXd& x, const VectorXd& r) -> VectorXd {
+    const ContactState state = stiffened(x);
     if (convex && equations.rims.empty()) {
       const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
       if (factor.info() == Eigen::Success) return factor.solve(equations.system->metric * r);
     }
-    return TangentFactor(tangent(*equations.system, state, friction), equations.system->rims).step(r);
+    return TangentFactor(tangent(*equations.system, state, friction), equations.system->rim_sizes).step(r);
   };
   return problem;
 }

@@ -33,7 +33,7 @@ struct JointEquations {
   /// Number a of directions.
   [[nodiscard]] Index n_directions() const { return n_plane_rows() / n_planes(); }
   /// Number n a of unknowns of the planes.
-  [[nodiscard]] Index n_plane_rows() const { return n_unknowns() - system->n_moments; }
+  [[nodiscard]] Index n_plane_rows() const { return n_unknowns() - system->n_moments(); }
   /// Number r of unknowns.
   [[nodiscard]] Index n_unknowns() const { return system->S_ud.rows(); }
   /// Index of the plane of an unknown, or number of planes plus index of the rim of contact.
@@ -47,7 +47,8 @@ struct JointEquations {
   /// Largest force that would deform the plates by a clearance, or the springs of a rim by its gap or interference,
   /// force.
   [[nodiscard]] double force_of_clearances() const;
-  /// @param interference_alone Which acts without load.
+  /// The same by gaps alone. @param interference_alone If true, only rims with interference count, which acts without
+  /// load.
   [[nodiscard]] double force_of_gaps(bool interference_alone = false) const;
   /// Largest force that would take the permanent set of a plane, 0 without memory.
   [[nodiscard]] double force_of_sets() const;

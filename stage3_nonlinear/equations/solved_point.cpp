@@ -70,7 +70,7 @@ void SolvedPoint::factorise() {
   if (inverse_) return;
   MatrixXd J = tangent(*equations_.system, beyond_);
   scale_ = scale_columns(J);
-  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.system->rims);
+  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.system->rim_sizes);
 }
 
 /// Replaces the forces at no load, under which no rim bears, by those of a small load, which determine the sides on

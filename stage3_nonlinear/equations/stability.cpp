@@ -125,7 +125,7 @@ bool seems_stable(const JointEquations& equations, const MatrixXd& J) {
   if (leftmost(ritz_values([&](const VectorXd& x) -> VectorXd { return J * x; }, n, steps)) < left) return false;
   MatrixXd shifted = J;
   shifted.diagonal().array() += shift;
-  const TangentFactor factor(std::move(shifted), equations.system->rims);
+  const TangentFactor factor(std::move(shifted), equations.system->rim_sizes);
   const Eigen::VectorXcd inverse = ritz_values([&](const VectorXd& x) { return factor.step(x); }, n, steps);
   return leftmost(inverse) > left * inverse.cwiseAbs().maxCoeff();
 }

@@ -285,8 +285,9 @@ void FastenerInterface::add_law_changes(const VectorXd& c, const MatrixXd& by_fo
       F.segment(j * a, a) = slopes[i].F * e;
       delta.segment(j * a, a) = slopes[i].delta * e;
       const NumberKind kind = i == 0 ? NumberKind::clearance : NumberKind::law;
-      const VectorXd Lambda = by_force.rows() > 0 ? VectorXd(by_force * F) : VectorXd();
-      result.push_back({kind, place_.first_plane + j, std::max<Index>(i - 1, 0), F, delta, Lambda});
+      VectorXd Lambda = by_force.rows() > 0 ? VectorXd(by_force * F) : VectorXd();  // BLAS refuses no rows
+      result.push_back(
+          {kind, place_.first_plane + j, std::max<Index>(i - 1, 0), std::move(F), std::move(delta), std::move(Lambda)});
     }
   }
 }

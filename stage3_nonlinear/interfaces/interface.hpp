@@ -73,6 +73,7 @@ class Interface {
   /// What each of its planes remembers; empty of an interface without planes.
   [[nodiscard]] virtual std::vector<PlaneMemory> memories(const History& /*history*/) const { return {}; }
   /// Adds a small stiffness where the slopes of a response vanish (docs/theory.md, section 8.5).
+  /// @param small Over the reference stiffness.
   virtual void add_small_stiffness(double small, Response& response) const = 0;
   /// Derivatives of Lambda by F, (t, n), on the sides that bear under F, if friction depends only on the forces; else
   /// empty.

@@ -13,9 +13,9 @@
 namespace fastjoint::stage3 {
 
 std::string stress_range_lines(const formats::JointResult& result) {
-  constexpr std::size_t max_rows = 16;
+  const std::size_t max_rows = result.case_name.size() > 1 ? 16 : 1;
   const std::size_t n = result.stress_ranges.size();
-  if (n == 0 || result.case_name.size() == 1) return {};
+  if (n == 0) return {};
   const std::string unit = fastjoint::unit(result.header.units, -2, 1);
   Table shown("{:<24} {:>20.6g} {:>9.1e} {:>9.1f} {:>14.6g} {:<40} {:>14.6g} {}",
               {{"hoop stress of one spot", fmt::format("range [{}]", unit), "+-", "at [deg]", "largest", "in",

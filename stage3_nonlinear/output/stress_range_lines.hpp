@@ -7,7 +7,7 @@
 
 namespace fastjoint::stage3 {
 
-/// Lines of the summary for the largest stress ranges of a joint with several cases; empty of others and without any.
+/// Lines of the summary for the largest stress ranges, of one case for the largest alone; empty without any.
 [[nodiscard]] std::string stress_range_lines(const formats::JointResult& result);
 
 }  // namespace fastjoint::stage3

@@ -25,6 +25,7 @@ struct RimDoubt {
 
 constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
 constexpr double allowed_against = 20;                        // of friction against the slip, degrees
+constexpr double no_load = 1e-100;                            // stress that rounding leaves of a joint without load
 
 constexpr std::array<RimDoubt, 7> doubts = {{
     {"springs-wrong-arc", [](const HoleState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
@@ -56,7 +57,9 @@ constexpr std::array<RimDoubt, 7> doubts = {{
      "[\"x\", \"y\"] in "
      "all PLATE.json"},
     {"friction-against-slip",
-     [](const HoleState& rim, bool) { return rim.against_slip > allowed_against ? rim.against_slip : 0; },
+     [](const HoleState& rim, bool) {
+       return rim.against_slip > allowed_against && rim.bearing_stress > no_load ? rim.against_slip : 0;
+     },
      "friction acts against the slip that it makes on {against:.3g} degrees of the contact at {at}: it is "
      "assumed to slip everywhere, but in reality sticks there; the effect on the loads is small, but the peak hoop "
      "stress {peak:.4g} {unit} is uncertain: compare it with one without friction, and take the larger"},

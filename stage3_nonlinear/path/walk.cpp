@@ -125,12 +125,12 @@ bool Walk::start(LoadPath& path) {
   const bool unloaded = equations_.starts_unloaded();
   if (unloaded && equations_.has_interference() && reach(0)) path.assembled = here_.c;
   if (!equations_.remembers() || (unloaded && equations_.history.empty())) return true;
-  const bool reached = reach(0);
-  if (reached)
-    equations_.commit(here_.c);
-  else
+  if (!reach(0)) {
     path.failure = failure(0, 0);
-  return reached;
+    return false;
+  }
+  equations_.commit(here_.c);
+  return true;
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) {

@@ -27,7 +27,6 @@ class CaseRun {
   /// Follows a case, and before it those that it comes after, as far as they have not been.
   ///
   /// @param load_factors Of its increments; none: at every event.
-  /// Throws InputError if it displaces other externals than the case before it.
   [[nodiscard]] FollowedCase follow(std::size_t at, const std::vector<double>& load_factors, PathOptions options,
                                     const Wanted& wanted);
 

@@ -38,9 +38,11 @@ class PeakSearch {
     const Curve hoop = curve(0, rim_.rim.waves, tractions);
     const auto peak = top(hoop, rim_.kinks);
     if (!peak) return std::nullopt;
-    const auto known = [&](Index i) { return is_allowed(hoop.angles[i]) ? hoop.values[i] : std::nan(""); };
-    return HoopPeak{peak->value, turn(peak->angle / rim::degree), error(hoop, *peak, tractions),
-                    VectorXd::NullaryExpr(hoop.angles.size(), known)};
+    const Index n = hoop.angles.size(), nearest = std::lround(peak->angle / rim::full_turn * double(n)) % n;
+    VectorXd at_points =
+        VectorXd::NullaryExpr(n, [&](Index i) { return is_allowed(hoop.angles[i]) ? hoop.values[i] : std::nan(""); });
+    at_points[(nearest + n) % n] = peak->value;
+    return HoopPeak{peak->value, turn(peak->angle / rim::degree), error(hoop, *peak, tractions), at_points};
   }
 
  private:

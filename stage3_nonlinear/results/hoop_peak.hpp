@@ -11,7 +11,9 @@ namespace fastjoint::stage3 {
 /// Largest hoop stress around a hole.
 struct HoopPeak {
   double value, angle, error;  ///< stress, degrees above -180 up to 180, stress (infinite of one degree or one wave)
-  VectorXd at_points;  ///< hoop stress at the points of TractionWaves; NaN beyond the modelled part and where excluded
+  /// Hoop stress at the points of TractionWaves, at the one next to the peak that of the peak; NaN beyond the modelled
+  /// part and where excluded.
+  VectorXd at_points;
 };
 
 /// Finds the largest hoop stress on the modelled part of a rim, or on the concentric circle at a distance from it, with

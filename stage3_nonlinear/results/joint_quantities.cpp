@@ -143,22 +143,11 @@ formats::PlateHistory things_of(const PlateModel& plate) {
   a.materials = plate.materials;
   a.matrices_digest = plate.header.digest;
   a.plate_digest = plate.plate_digest;
-  a.disc_hole = plate.disc_hole;
-  a.disc_direction = plate.disc_direction;
-  a.external_id = plate.external_id;
-  a.traction_id = plate.traction_id;
-  a.traction_bearing = plate.traction_bearing;
+  static_cast<formats::UnitCases&>(a) = plate;
   a.traction_bearing.resize(plate.traction_id.size());
-  a.traction_arm = plate.traction_arm;
   a.traction_arm.resize(plate.traction_id.size());
-  a.contact = plate.contact;
-  for (Index i = 0; i < std::ssize(plate.contact); ++i) {
-    a.waves.push_back(plate.waves[i]);
-    a.waves.back().waves = formats::waves_of_field(plate.contact[i], plate.waves[i]);
-  }
-  a.friction_hole = plate.friction_hole;
-  a.friction_bearing = plate.friction_bearing;
-  a.border = plate.border;
+  a.waves.resize(a.contact.size());  // of the rims in contact alone
+  for (std::size_t i = 0; i < a.waves.size(); ++i) a.waves[i].waves = formats::waves_of_field(a.contact[i], a.waves[i]);
   a.tips = plate.cracks.tips;
   if (plate.stress_level) a.holes = holes_of(plate.stresses);
   a.rows = row_list(disc_rows(plate));

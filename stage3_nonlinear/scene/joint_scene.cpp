@@ -377,13 +377,14 @@ JointScene read_joint_scene(const input::Document& document) {
 
 void read_again(const input::Document& document, const std::set<std::vector<std::string>>& items, JointScene& scene) {
   const Value root(document);
-  const auto fasteners = root.at("fasteners").items();
+  std::vector<Value> fasteners;  // read where some vary
   for (const auto& item : items) {
     const std::string& list = item.front();
     if (list == "laws") {
       scene.laws.at(item[1]).law = read_law(root.at("laws").at(item[1].c_str()));
     } else if (list == "fasteners") {
       const std::size_t at = std::stoul(item[1]);
+      if (fasteners.empty()) fasteners = root.at("fasteners").items();
       scene.fasteners[at] = read_fastener(fasteners[at], scene);
     } else {
       const std::size_t of_case = list == "cases" ? std::stoul(item[1]) : 0, at = std::stoul(item.back());

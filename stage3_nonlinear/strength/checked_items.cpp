@@ -120,10 +120,7 @@ class Collector {
   CheckedItems run() {
     for (const auto& check : scene_.checks) {
       check_ = &check;
-      left_out_.clear();
       check.kind == CheckKind::fastener_shear ? of_fasteners() : of_holes();
-      for (const auto& [reason, holes] : left_out_)
-        all_.left_out.push_back(left_out_warning(scene_, check, reason, holes));
     }
     return std::move(all_);
   }
@@ -222,7 +219,7 @@ class Collector {
     const char* lacks = needs_section && sections.number() == 0                     ? "it has no sections"
                         : kind == CheckKind::shear_out && s.rim_thickness[rim] == 0 ? "its thickness is not known"
                                                                                     : nullptr;
-    if (lacks != nullptr) return left_out_[lacks].push_back(name);
+    if (lacks != nullptr) return all_.left_out.add(*check_, lacks, name);
     CheckedHole its{check_, &plate, at, rim, 2 * s.rim_radius[rim], s.rim_thickness[rim]};
     for (Index i = 0; i < std::ssize(plate.discs); ++i)
       if (plate.hole_of(plate.discs[i]) == hole) its.discs.emplace_back(i, plate.axis_of(plate.discs[i]));
@@ -262,7 +259,6 @@ class Collector {
   const Parameters& parameters_;
   const CheckScene* check_ = nullptr;
   CheckedItems all_;
-  std::map<std::string, std::vector<std::string>> left_out_;  ///< holes of the check by the reason
 };
 
 }  // namespace
@@ -271,11 +267,15 @@ double CheckedItem::margin(const Applied& now) const {
   return now.applied > 0 ? now.allowable / (check->safety_factor * check->fitting_factor * now.applied) - 1 : infinite;
 }
 
-program::Warning left_out_warning(const JointScene& scene, const CheckScene& check, const std::string& reason,
-                                  const std::vector<std::string>& items, bool is_made) {
-  return {"check-left-out",
-          fmt::format("{}: check \"{}\" is {} for {}: {}", scene.file, check.name,
-                      is_made ? "made of some increments alone" : "not made", program::listed(items), reason)};
+std::vector<program::Warning> LeftOut::warnings(const JointScene& scene) const {
+  std::vector<program::Warning> all;
+  for (const auto& [key, items] : items_) {
+    const auto& [check, at_some_increments, reason] = key;
+    all.push_back({"check-left-out", fmt::format("{}: check \"{}\" is {} for {}: {}", scene.file, check->name,
+                                                 at_some_increments ? "made of some increments alone" : "not made",
+                                                 program::listed(items), reason)});
+  }
+  return all;
 }
 
 CheckedItems checked_items(const JointScene& scene, const JointModel& joint, const Parameters& parameters) {

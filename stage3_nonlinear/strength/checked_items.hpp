@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "common/columns/column.hpp"
@@ -38,20 +40,29 @@ struct CheckedItem {
   [[nodiscard]] double margin(const Applied& now) const;
 };
 
+/// Items that checks leave out: check by check those of which it is not made, then those of some increments alone.
+class LeftOut {
+ public:
+  void add(const CheckScene& check, const std::string& reason, const std::string& item,
+           bool at_some_increments = false) {
+    items_[{&check, at_some_increments, reason}].push_back(item);
+  }
+  /// A warning for each check and reason.
+  [[nodiscard]] std::vector<program::Warning> warnings(const JointScene& scene) const;
+
+ private:
+  std::map<std::tuple<const CheckScene*, bool, std::string>, std::vector<std::string>> items_;
+};
+
 /// All that the checks of a joint ask, in their order.
 struct CheckedItems {
   std::vector<CheckedItem> items;
-  std::vector<program::Warning> left_out;  ///< of holes for which a check cannot be made
+  LeftOut left_out;  ///< holes for which a check cannot be made
 };
 
 /// Throws InputError if a check names what is not there, or needs stresses or an edge distance that are not known.
 /// @param scene, joint Outlive the items. @param parameters Its gaps are used.
 [[nodiscard]] CheckedItems checked_items(const JointScene& scene, const JointModel& joint,
                                          const Parameters& parameters);
-
-/// Warning of items that a check leaves out. @param is_made It leaves them out at some increments alone.
-[[nodiscard]] program::Warning left_out_warning(const JointScene& scene, const CheckScene& check,
-                                                const std::string& reason, const std::vector<std::string>& items,
-                                                bool is_made = false);
 
 }  // namespace fastjoint::stage3

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <tuple>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -43,22 +41,17 @@ WorstIncrement worst_of(const CheckedItem& item, const formats::JointResult& a, 
 
 }  // namespace
 
-std::vector<Margin> margins(const JointScene& scene, const std::vector<CheckedItem>& items,
-                            const formats::JointResult& result, std::vector<program::Warning>& left_out) {
+std::vector<Margin> margins(const std::vector<CheckedItem>& items, const formats::JointResult& result,
+                            LeftOut& left_out) {
   JointColumns columns{&result.columns, {}};
   for (const auto& plate : result.plates) columns.plates.push_back(&plate.columns);
   std::vector<Margin> all;
-  std::map<std::tuple<const CheckScene*, bool, std::string>, std::vector<std::string>> missing;
   for (const auto& item : items) {
     const auto [worst, solved, known] = worst_of(item, result, columns);
     if (worst) all.push_back(*worst);
     const char* reason = solved ? item.unknown : "none of its cases was solved";
     if ((!worst || !known) && result.load_factor.size() > 0)
-      missing[{item.check, worst.has_value(), reason}].push_back(item.of);
-  }
-  for (const auto& [key, names] : missing) {
-    const auto& [check, is_made, reason] = key;
-    left_out.push_back(left_out_warning(scene, *check, reason, names, is_made));
+      left_out.add(*item.check, reason, item.of, worst.has_value());
   }
   // Equal ones, but for rounding, stay in the order of the joint.
   std::ranges::stable_sort(all, {}, [](const Margin& each) { return std::round(1e9 * each.margin); });

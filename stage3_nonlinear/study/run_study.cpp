@@ -295,7 +295,8 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
   if (slice.is_whole)
-    for (const auto& each : middle_warnings(joint, middle_scene, cases)) program::warn(log, program_name, each);
+    for (const auto& some : {middle_warnings(joint, middle_scene, cases), outputs.left_out().warnings(study.joint)})
+      for (const auto& each : some) program::warn(log, program_name, each);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
     if (!outputs.need_stresses()) plate.stress_level.reset();

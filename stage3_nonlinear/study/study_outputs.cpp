@@ -27,15 +27,20 @@ void StudyOutputs::add(const std::vector<columns::Group<At>>& groups, Index plat
     const auto& group = groups[at];
     const Index parts = group.parts ? std::ssize(*group.parts) : 1;
     for (Index column = 0; column < std::ssize(group.quantities); ++column) {
-      const auto& [path, dimension, meaning, envelope, allowed, output, needs_section] = group.quantities[column];
+      const columns::Quantity& quantity = group.quantities[column];
+      const auto& output = quantity.output;
       if (!output || !study.outputs.contains(output->asked) || group.n == 0) continue;
-      const auto is_it = [&](const OutputKind& each) { return each.output.name == std::string(output->name); };
-      auto kind = std::ranges::find_if(kinds_, is_it);
-      if (kind == kinds_.end()) kind = kinds_.insert(kind, {*output, dimension});
-      Source source{plate, at, column, kind - kinds_.begin(), {}, std::ssize(kind->of)};
+      Source source{plate, at, column, 0, {}, 0};
+      std::vector<std::string> of;
       const std::vector<std::string> all = names(group.of);
       for (Index i = 0; i < group.n; ++i)
-        if (!all[i].empty()) kind->of.push_back(all[i]), source.rows.push_back(i * parts);
+        if (!all[i].empty()) of.push_back(all[i]), source.rows.push_back(i * parts);
+      if (of.empty()) continue;
+      const auto is_it = [&](const OutputKind& each) { return each.output.name == std::string(output->name); };
+      auto kind = std::ranges::find_if(kinds_, is_it);
+      if (kind == kinds_.end()) kind = kinds_.insert(kind, {*output, quantity.dimension});
+      source.kind = kind - kinds_.begin(), source.first = std::ssize(kind->of);
+      kind->of.insert(kind->of.end(), of.begin(), of.end());
       const auto limit = study.limits.find(output->name);
       kind->limit.resize(kind->of.size(), limit == study.limits.end() ? infinite : limit->second);
       sources_.push_back(std::move(source));
@@ -67,7 +72,6 @@ StudyOutputs::StudyOutputs(const JointModel& joint, const Parameters& parameters
       return names;
     });
   }
-  std::erase_if(sources_, [](const Source& each) { return each.rows.empty(); });
   if (study.outputs.contains("margins")) add_checks(joint, parameters, scene, study);
   for (auto& kind : kinds_) kind.first = size_, size_ += std::ssize(kind.of);
 }
@@ -78,20 +82,36 @@ void StudyOutputs::add_checks(const JointModel& joint, const Parameters& paramet
       {"utilisation", "margins", "FS FF applied / allowable of each check; its margin is 1 over this less 1",
        "largest FS FF applied / allowable of all"},
       columns::ratio};
-  for (auto& item : checked_items(scene, joint, parameters).items) {
-    if (!item.is_known) continue;
+  CheckedItems checked = checked_items(scene, joint, parameters);
+  left_out_ = checked.left_out;
+  const auto counts = [&](const CheckScene& check) {
+    return study.cases.empty() || std::ranges::any_of(study.cases, [&](const auto& its) { return check.counts(its); });
+  };
+  for (auto& item : checked.items) {
+    const bool is_solved = counts(*item.check);
+    if (!item.is_known || !is_solved) {
+      left_out_.add(*item.check, is_solved ? item.unknown : "the study has none of its cases", item.of);
+      continue;
+    }
     kind.of.push_back(item.check->name + ": " + item.of);
     const auto least = study.least_margins.find(item.check->name);
     kind.limit.push_back(least == study.least_margins.end() ? 1 : 1 / (1 + least->second));
     items_.push_back(std::move(item));
   }
-  if (!items_.empty()) kinds_.push_back(std::move(kind));
+  if (items_.empty()) return;
+  kinds_.push_back(std::move(kind));
+  for (const auto& plate : of_plates_) {
+    const auto is_checked = [](const PlateGroup& its) {
+      return its.of == columns::Of::hole || its.of == columns::Of::disc;
+    };
+    std::ranges::copy_if(plate, std::back_inserter(checked_.emplace_back()), is_checked);
+  }
 }
 
 VectorXd StudyOutputs::utilisations(const JointAt& at, const std::string& case_name) const {
   const columns::Columns joint(of_joint_, std::vector<JointAt>{at});
   std::vector<columns::Columns> plates;
-  for (Index i = 0; i < std::ssize(of_plates_); ++i) plates.emplace_back(of_plates_[i], std::vector<PlateAt>{{at, i}});
+  for (Index i = 0; i < std::ssize(checked_); ++i) plates.emplace_back(checked_[i], std::vector<PlateAt>{{at, i}});
   JointColumns columns{&joint, {}};
   for (const auto& each : plates) columns.plates.push_back(&each);
   VectorXd all = VectorXd::Zero(std::ssize(items_));

@@ -30,6 +30,8 @@ class StudyOutputs {
   StudyOutputs(const JointModel& joint, const Parameters& parameters, const JointScene& scene, const StudyScene& study);
 
   [[nodiscard]] const std::vector<OutputKind>& kinds() const { return kinds_; }
+  /// Items of checks without a number.
+  [[nodiscard]] const LeftOut& left_out() const { return left_out_; }
   /// How many numbers.
   [[nodiscard]] Index size() const { return size_; }
   /// True if some follow from the stresses of plates: those of holes and of checks.
@@ -58,6 +60,8 @@ class StudyOutputs {
   std::vector<OutputKind> kinds_{};
   std::vector<Source> sources_{};
   std::vector<CheckedItem> items_{};
+  LeftOut left_out_{};
+  std::vector<std::vector<PlateGroup>> checked_{};  ///< of each plate, those that checks ask: of its holes and discs
   std::vector<JointGroup> of_joint_;
   std::vector<std::vector<PlateGroup>> of_plates_{};
   Index size_ = 0;

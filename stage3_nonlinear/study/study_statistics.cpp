@@ -33,7 +33,6 @@ struct Group {
 std::vector<Group> groups_of(const StudyOutputs& outputs) {
   std::vector<Group> groups;
   for (const auto& kind : outputs.kinds()) {
-    if (kind.of.empty()) continue;
     const auto& [name, asked, meaning, largest, is_magnitude] = kind.output;
     groups.push_back({name, meaning, kind.of, &kind, false});
     if (largest != nullptr)

@@ -96,6 +96,7 @@ def against_single_runs(folder):
     for kind, more, n in (("linear", {}, 40), ("with contact", {"gap": 0.01, "friction": 0.1}, 12)):
         sheets(folder, contact=bool(more))
         cases = [{"name": f"case {i}", "loads": loads(*random.uniform(-5000, 5000, 2)), "increments": int(random.integers(1, 4))} for i in range(n)]
+        cases[1]["loads"] = loads(0, 0)
         scene = joint(cases)
         for fastener in scene["fasteners"]:
             fastener |= more
@@ -125,6 +126,7 @@ def against_single_runs(folder):
             assert np.array_equal(largest[quantity][2], table.min(axis=0)) and np.array_equal(largest[quantity][3], table.argmin(axis=0)), quantity
         holes = [row for plate in ("lower", "upper") for row in rows[f"plates/{plate}/rim/peak_hoop"].T]
         assert np.array_equal(largest["peak_hoop"][0], np.max(holes, axis=1))
+        assert ranges["range"].max() >= np.max(holes) * (1 - 1e-9), "one case has no load"
         lines = list(csv.DictReader(open(folder / "all.csv")))
         assert len(lines) == N * len(of) and all(line["joint"] == "lap" for line in lines)
         assert [line["case"] for line in lines[::N]] == [f"case {i}" for i in of]
@@ -304,6 +306,12 @@ def studies(folder):
                                        ("peak", made["samples/peak"][4][-N:], one["plates/upper/rim/peak_hoop"][:][keep].max(axis=0)),
                                        ("displacement", made["samples/displacement"][4], moved[[np.abs(moved).argmax()]])):
                 near(f"study of {chosen or 'all cases'}: {name}", np.abs(found - truth).max() / np.abs(truth).max(), 0, 1e-7, absolute=True)
+    checks = [{"check": "fastener shear", "name": name, "P_su": 900} | more for name, more in (("all", {}), ("pushed", {"cases": ["push"]}))]
+    (folder / "study.json").write_text(json.dumps(study | {"cases": ["pull"], "outputs": ["margins"]}))
+    done = run(folder, scene | {"margins": {"checks": checks}}, "--study", "study.json", output="study.h5").stderr
+    assert '[check-left-out]' in done and 'check "pushed"' in done and "the study has none of its cases" in done, done
+    with h5py.File(folder / "study.h5") as made:
+        assert [of.split(":")[0] for of in made["statistics/utilisation/of"].asstr()] == ["all"] * N
     (folder / "study.json").write_text(json.dumps(study | {"cases": ["x"]}))
     done = run(folder, scene, "--study", "study.json", output="study.h5", status=2)
     assert 'study.json: /cases: "x" is no case of the joint; allowed: pull, push, on top' in done.stderr, done.stderr

@@ -95,7 +95,7 @@ TEST_F(ContactJoint, HaveTangentsThatAreSolvedRimByRim) {
     const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random_, -1, 1); });
     const MatrixXd J = tangent(*equations.system, contact_state(equations, c));
     const VectorXd b = VectorXd::Random(J.rows()), x = matrices::Lu(J).solve(b);
-    EXPECT_LT((TangentFactor(J, equations.system->rims).solve(b) - x).norm(), 1e-8 * x.norm()) << "joint " << i;
+    EXPECT_LT((TangentFactor(J, equations.system->rim_sizes).solve(b) - x).norm(), 1e-8 * x.norm()) << "joint " << i;
   }
 }
 

@@ -24,10 +24,10 @@ TEST(Margins, SayWhichLackIncrements) {
                          return Applied{.applied = step == 0 ? first : second, .allowable = 100};
                        }};
   };
-  std::vector<program::Warning> left_out;
-  const auto found =
-      margins(scene, {item("known", 20, 50), item("partly", 20, infinite), item("unknown", infinite, infinite)}, result,
-              left_out);
+  LeftOut missing;
+  const auto found = margins({item("known", 20, 50), item("partly", 20, infinite), item("unknown", infinite, infinite)},
+                             result, missing);
+  const auto left_out = missing.warnings(scene);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].of, "known");
   EXPECT_EQ(found[0].margin, 1);
