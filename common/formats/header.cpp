@@ -169,7 +169,8 @@ void contact_datasets(File& file, Data<File, std::vector<ContactRim>>& a, const 
        "holes whose springs push but do not pull", h5::or_else(""));
   column(
       "pressure/harmonics", [](auto& rim) -> auto& { return rim.pressures.highest; }, "1",
-      "number of waves around a whole circle of the shortest pressure of contact", h5::integers(1, rim::max_harmonics));
+      "number of waves around a whole circle of the shortest pressure of contact; 0: as many as a joint asks for",
+      h5::integers(0, rim::max_harmonics));
   column("pressure/start", [](auto& rim) -> auto& { return rim.pressures.start; }, "rad",
          "where the rim that the model has begins, counter-clockwise from x", {});
   column(

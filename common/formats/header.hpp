@@ -34,11 +34,11 @@ struct Header {
 /// A rim with compression-only springs, and the basis of its contact pressures.
 struct ContactRim {
   std::string hole;
-  rim::Harmonics pressures;
-  double modulus;           ///< K of the springs, force / length^3
-  double radius;            ///< length
-  double area;              ///< thickness times length of the rim in the model, length^2
-  rim::ElasticDisk disk{};  ///< elastic pin in place of the springs; without one the springs press on the rim
+  rim::Harmonics pressures;  ///< of highest order 0: as many as a joint asks for
+  double modulus;            ///< K of the springs, force / length^3
+  double radius;             ///< length
+  double area;               ///< thickness times length of the rim in the model, length^2
+  rim::ElasticDisk disk{};   ///< elastic pin in place of the springs; without one the springs press on the rim
 };
 
 /// A rim with waves that the finite elements resolve: displacements, and in contact tractions too.
@@ -62,7 +62,8 @@ struct WaveRim {
 [[nodiscard]] inline rim::Harmonics waves_of_field(const ContactRim& rim, const WaveRim& carried) {
   constexpr int max_order = 16;
   rim::Harmonics waves = rim.pressures;
-  waves.highest = std::min(waves.highest, std::max(carried.waves.highest, max_order));
+  const int highest = std::max(carried.waves.highest, max_order);
+  waves.highest = waves.highest > 0 ? std::min(waves.highest, highest) : highest;
   return waves;
 }
 

@@ -81,9 +81,6 @@ void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& pr
 /// factorisation alone would not detect it.
 void check_rigid_motions(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
-/// Highest order of the waves of contact, most of which have a closed form.
-inline constexpr int default_harmonics = 64;
-
 /// Highest order of waves that elements of degree p resolve with this number of sides around a whole hole.
 [[nodiscard]] int resolved_order(int p, double n_sides);
 

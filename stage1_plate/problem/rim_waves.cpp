@@ -75,13 +75,13 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     if (!(rim_compliance(scene, plate, i)(0, 0) > 0 && shape.repeats())) {
       // The waves of the elements are all that there are. A short crack feels the stress of its place on the rim, for
       // which 16 are too few; more than the elements resolve do not help.
-      constexpr int least_order = 16;
-      const int order = plate.is_cracked[i] ? std::clamp(resolved, least_order, default_harmonics) : least_order;
+      constexpr int least_order = 16, most_orders = 64;
+      const int order = plate.is_cracked[i] ? std::clamp(resolved, least_order, most_orders) : least_order;
       shape.highest = in_contact ? hole.spring->harmonics.value_or(order) : 0;
       if (in_contact) waves = {shape, true};
       continue;
     }
-    if (in_contact) shape.highest = hole.spring->harmonics.value_or(default_harmonics);
+    if (in_contact) shape.highest = hole.spring->harmonics.value_or(shape.highest);
     if (!in_contact && (!hole.stresses || is_linked)) continue;
     shape.highest = std::min(shape.highest, hole.waves > 0 ? hole.waves : std::min(needed[i], resolved));
     waves = {shape, in_contact};

@@ -53,8 +53,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
                          rim_compliance(scene, plate, i), a.hole_spring[i].arcs});
       if (!loaded) continue;
       rim::Harmonics pressures = waves->shape;
-      if (a.waves.back().has_closed_form())
-        pressures.highest = scene.holes[i].sprung().harmonics.value_or(default_harmonics);
+      if (a.waves.back().has_closed_form()) pressures.highest = scene.holes[i].sprung().harmonics.value_or(0);
       a.contact.push_back(
           {a.hole_id[i], pressures, a.hole_spring[i].modulus, radius, area, scene.holes[i].sprung().disk});
     }

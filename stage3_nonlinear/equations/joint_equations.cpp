@@ -61,21 +61,26 @@ void place_fasteners(const JointModel& joint, JointEquations& equations) {
   }
 }
 
-/// Appends the rims of contact, each with the gap and the friction of the fastener in it.
+/// Appends the rims of contact, each with the gap and the friction of the fastener in it and as many waves as these ask
+/// for under the largest force of rigid fasteners.
 /// @param like The same rims with other parameters, if there are any.
 void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const RimProblem>>& like,
                 JointEquations& equations) {
   const auto places = rim_places(joint);
+  const auto rigid = [&](double load_factor) {
+    return equations.rigid_forces(load_factor).head(equations.n_plane_rows()).lpNorm<Eigen::Infinity>();
+  };
+  const double force = places.empty() ? 0 : std::max(rigid(0), rigid(1));
   for (Index i = 0; i < std::ssize(places); ++i) {
     const auto& [plate, at, hole, may_rub] = places[i];
-    const auto& rim = joint.plates[plate].contact[at];
     const double gap = hole < 0 ? 0 : equations.parameters.gap[hole], mu = hole < 0 ? 0 : equations.parameters.mu[hole];
-    const auto& waves = joint.plates[plate].short_waves[at];
+    const ContactWaves& all = *joint.plates[plate].contact_waves[at];
+    auto waves = all.up_to(all.order(gap, mu, force));
     const double k = equations.system->stiffness[equations.n_planes() + i];
     equations.rims.push_back(std::make_shared<const RimProblem>(
-        !like.empty() ? like[i]->with(gap, mu)
-                      : RimProblem(CompressionOnlyRim(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves,
-                                   rim.area, k)));
+        !like.empty() && like[i]->waves() == waves
+            ? like[i]->with(gap, mu)
+            : RimProblem(std::move(waves), joint.plates[plate].contact[at].area, k, gap, mu)));
     equations.has_friction = equations.has_friction || mu != 0;
     place(std::make_shared<RimInterface>(equations.rims.back(), i, may_rub), equations.interfaces);
   }
@@ -97,10 +102,10 @@ JointEquations make_equations(const JointModel& joint, std::shared_ptr<const Con
   equations.rises = std::ranges::all_of(equations.contacts, [](const Contact& each) { return each.law->rises(); });
   check_friction(joint, equations.parameters);
   place_fasteners(joint, equations);
-  place_rims(joint, like, equations);
-  equations.has_friction = equations.has_friction || equations.has_cosine_friction;
   equations.q = rigid_forces_by(*equations.system, equations.load_rates(1));
   equations.q_reversed = rigid_forces_by(*equations.system, equations.load_rates(-1));
+  place_rims(joint, like, equations);
+  equations.has_friction = equations.has_friction || equations.has_cosine_friction;
   return equations;
 }
 

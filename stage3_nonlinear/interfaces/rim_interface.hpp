@@ -18,7 +18,7 @@ class RimInterface : public Interface {
       : rim_(std::move(rim)), at_(at), has_friction_(has_friction) {}
 
   [[nodiscard]] Index size() const override { return rim_->n_long(); }
-  [[nodiscard]] Index n_friction() const override { return has_friction_ ? rim_->waves().n_long_shears : 0; }
+  [[nodiscard]] Index n_friction() const override { return has_friction_ ? rim_->waves()->n_long_shears : 0; }
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
   void add_small_stiffness(double small, Response& response) const override;
   [[nodiscard]] std::vector<std::vector<Corner>> corners() const override;

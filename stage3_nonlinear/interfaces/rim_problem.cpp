@@ -13,30 +13,30 @@ namespace {
 constexpr double rim_rounding = 1e-14;
 constexpr int max_pressure_steps = 100, max_step_halvings = 20;
 
-}  // namespace
-
-double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves, double k) {
-  if (waves.disk_compliance.size() == 0) return rim.modulus * rim.area;
-  MatrixXd compliance = waves.M / rim.area;
+/// Stiffness of the springs between the rims, force / length: that of the tail, or more if a wave asks for it.
+double contact_stiffness(const ShortWaves& waves, double area, double k) {
+  MatrixXd compliance = waves.M / area;
   compliance.diagonal().head(waves.n_long).array() += 1 / k;
-  constexpr double factor = 2, margin = 1.5;  // over the stiffness at which a wave would have no compliance
-  double stiffness = factor * rim.area / waves.min_compliance;
-  const auto rest = [&](double yield) {
-    MatrixXd less = compliance;
-    less.diagonal().array() -= yield;
-    return less;
+  constexpr double factor = 1.25, margin = 1 + 1e-7;  // over the stiffness at which a wave would have no compliance
+  double stiffness = area / waves.tail;
+  const auto is_enough = [&] {
+    MatrixXd rest = compliance;
+    rest.diagonal().array() -= margin / stiffness;
+    return matrices::is_positive_definite(rest);
   };
-  while (!matrices::is_positive_definite(rest(margin / stiffness))) stiffness *= factor;
+  while (!is_enough()) stiffness *= factor;
   return stiffness;
 }
 
-RimProblem::RimProblem(CompressionOnlyRim contact, std::shared_ptr<const ShortWaves> waves, double area, double k)
-    : contact_(std::move(contact)),
-      waves_(std::move(waves)),
+}  // namespace
+
+RimProblem::RimProblem(std::shared_ptr<const ShortWaves> waves, double area, double k, double gap, double mu)
+    : waves_(std::move(waves)),
       area_(area),
       k_(k),
+      contact_(waves_->pressures, contact_stiffness(*waves_, area, k), gap, mu),
       is_diagonal_(waves_->M.isDiagonal(1e-12)),
-      diagonal_(VectorXd::Constant(waves_->n, waves_->disk_compliance.size() > 0 ? -1 / contact_.stiffness() : 0)) {
+      diagonal_(VectorXd::Constant(waves_->n, -1 / contact_.stiffness())) {
   diagonal_.head(n_long()).array() += 1 / k;
   if (is_diagonal_) {
     M_tau_ = waves_->M_tau.sparseView();
@@ -49,10 +49,17 @@ RimProblem::RimProblem(CompressionOnlyRim contact, std::shared_ptr<const ShortWa
 }
 
 VectorXd RimProblem::against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const {
-  if (waves_->disk_compliance.size() == 0) return w;
-  const VectorXd by_pressure = waves_->disk_compliance.cwiseProduct(pressure) - pressure / modulus();
-  if (shear.size() == 0) return w + by_pressure;
-  return w + by_pressure + waves_->disk_by_shear * shear;
+  const ShortWaves& a = *waves_;
+  VectorXd result = w + a.disk_compliance.cwiseProduct(pressure) - pressure / modulus();
+  if (shear.size() > 0) result += a.disk_by_shear * shear;
+  if (a.is_empty()) return result;
+  // The sheet has all of the short waves' compliance.
+  result.head(a.n_long) -=
+      a.D.topLeftCorner(a.n_long, a.n) * (1 - a.part.array().sqrt()).matrix().cwiseProduct(pressure);
+  const auto rows = a.D.middleRows(a.n_long, a.n - a.n_long);
+  result.tail(rows.rows()) = -(rows.leftCols(a.n) * pressure);
+  if (shear.size() > 0) result.tail(rows.rows()) -= rows.rightCols(a.n_shears) * shear;
+  return result;
 }
 
 RimProblem RimProblem::with(double gap, double mu) const {

@@ -23,24 +23,20 @@ struct RimSolution {
   bool converged = true;  ///< without friction there is one solution, which is always found
 };
 
-/// Stiffness K A of the springs between a rim and its disc, or of those that keep an elastic disk from overlapping,
-/// force / length. @param k Stiffness of the rim's contact coordinates, force / length.
-[[nodiscard]] double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves, double k);
-
 /// The local problem of a rim of contact: all waves of its displacement and pressure, short ones included, for given
 /// contact coordinates c = F + k delta of its long waves (docs/theory.md, section 6.4),
 ///   w + M_k f + M_tau tau = (c / k, 0),   f = K A <w - g>_+ in waves,   M_k = M / A, plus 1 / k for long waves.
 /// Without friction the solution minimises a strictly convex function.
 ///
-/// The compliance of an elastic disk is in M_k, and the rims must not overlap. Penalty springs stiffer than any wave of
-/// the disk ensure that; their compliance is subtracted from M_k (docs/theory.md, section 6.7).
+/// Between the rims are springs of the compliance that all waves beyond the shortest have; it is subtracted from M_k
+/// (docs/theory.md, section 6.8).
 class RimProblem {
  public:
   /// @param area Area of the rim, length^2. @param k Stiffness of the coordinates, force / length.
-  RimProblem(CompressionOnlyRim contact, std::shared_ptr<const ShortWaves> waves, double area, double k);
+  RimProblem(std::shared_ptr<const ShortWaves> waves, double area, double k, double gap, double mu);
 
   [[nodiscard]] const CompressionOnlyRim& contact() const { return contact_; }
-  [[nodiscard]] const ShortWaves& waves() const { return *waves_; }
+  [[nodiscard]] const std::shared_ptr<const ShortWaves>& waves() const { return waves_; }
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double k() const { return k_; }
   [[nodiscard]] Index n_long() const { return waves_->n_long; }
@@ -79,9 +75,9 @@ class RimProblem {
   /// Derivative of the residual by w, (n, n), dimensionless.
   [[nodiscard]] MatrixXd jacobian(const State& at) const;
 
-  CompressionOnlyRim contact_;
   std::shared_ptr<const ShortWaves> waves_;
   double area_, k_;
+  CompressionOnlyRim contact_;
   bool is_diagonal_;                                    ///< M_k, as in an isotropic sheet
   VectorXd diagonal_;                                   ///< (n) M_k - M / A, which is diagonal, length / force
   Eigen::SparseMatrix<double, Eigen::RowMajor> M_tau_;  ///< used if M_k is diagonal: few entries are not zero

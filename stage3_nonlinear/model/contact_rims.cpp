@@ -3,68 +3,128 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
+#include "common/matrices/decompositions.hpp"
 #include "common/rim/rim_compliance.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
-bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const formats::ContactRim& b,
-          const formats::WaveRim& b_carried) {
-  return a.pressures == b.pressures && a.modulus == b.modulus && a.radius == b.radius && a.disk == b.disk &&
-         a_carried.waves == b_carried.waves && a_carried.compliance == b_carried.compliance;
+constexpr int least_order = 24, highest_order = 128;
+
+/// Order of the shortest wave if the file leaves it to the joint: a half more than the elements carry, so that the
+/// change by the shorter waves shows their error.
+int fewest_order(const formats::ContactRim& contact, const formats::WaveRim& carried) {
+  if (contact.pressures.highest > 0) return contact.pressures.highest;
+  return std::max(least_order, (3 * carried.waves.highest / 2 + 3) / 4 * 4);
 }
 
-/// Minimum compliance of disk and sheet over waves of order 2 and more, after D if that is known.
-double min_compliance(const rim::Harmonics& full, const ShortWaves& a) {
+/// Mean compliance of the waves beyond an order, of each of which it is constant + fall / order, length / stress. With
+/// it the ends of contact are those of all waves but for terms of the order N^-2 (docs/theory.md, section 6.8).
+double mean_beyond(double order, double constant, double fall) {
+  const double first = fall / order, ratio = first / constant;
+  constexpr double small = 1e-6;
+  if (constant == 0) return first / std::numbers::e;
+  return ratio > small ? constant * std::exp((1 + 1 / ratio) * std::log1p(ratio) - 1) : constant;
+}
+
+/// Adds to waves the compliance of an elastic disk, or of springs.
+void add_disk(const formats::ContactRim& contact, ShortWaves& a) {
+  const bool is_disk = contact.disk.is_given();
+  const double spring = 1 / contact.modulus;
+  a.disk_compliance =
+      is_disk ? contact.disk.yield(contact.radius, a.pressures) : VectorXd(VectorXd::Constant(a.n, spring));
+  a.disk_by_shear = MatrixXd::Zero(a.n, a.n_shears);
+  a.disk_tangential = VectorXd::Zero(a.n_shears);
+  if (is_disk) {
+    a.disk_by_shear = contact.disk.yield_by_shear(contact.radius, a.pressures);
+    a.disk_tangential = contact.disk.give_way(contact.radius, a.pressures);
+  }
+  a.M = a.disk_compliance.asDiagonal();
+  a.M_tau = a.disk_by_shear;
+}
+
+/// Index of the first wave of order 2; D does not have those before.
+Index first_of_D(const ShortWaves& a) { return a.pressures.is_whole() ? 3 : 2; }
+
+/// Smallest eigenvalue of the compliance with ones on its diagonal: below 1 in a laminate, whose rim is stiffer at some
+/// places than at others.
+double least_to_mean(const ShortWaves& a) {
+  const Index first = first_of_D(a), n = a.n - first;
+  if (a.D.size() == 0 || n <= 0) return 1;
+  MatrixXd all = a.D.block(first, first, n, n);
+  if (all.isDiagonal()) return 1;
+  all.diagonal() += a.disk_compliance.tail(n);
+  const VectorXd root = all.diagonal().cwiseSqrt().cwiseInverse();
+  constexpr double least = 0.01;
+  return std::max(matrices::symmetric_eigenvalues(root.asDiagonal() * all * root.asDiagonal())[0], least);
+}
+
+/// Sets the compliance of the waves beyond the shortest, and lets that of the upper third of the waves pass over into
+/// it without a jump, which would make the pressure oscillate (docs/theory.md, section 6.8).
+void set_tail(const formats::ContactRim& contact, ShortWaves& a) {
+  const rim::Harmonics& shape = a.pressures;
+  const Index group = shape.is_whole() ? 2 : 1;  // waves of one order
+  const double spacing = shape.is_whole() ? 1 : std::numbers::pi / shape.sweep;
+  const auto order = [&](Index k) { return spacing * double((k + group - 1) / group); };
   VectorXd all = a.disk_compliance;
   if (a.D.size() > 0) all += a.D.diagonal().head(a.n);
-  const Index first = full.is_whole() ? 3 : 2;  // the first wave of order 2, or 4 on a quarter
-  return first < a.n ? all.tail(a.n - first).minCoeff() : all[0];
-}
-
-/// Adds to waves the compliance of an elastic disk, or of springs that are stiffer than the shortest wave of the sheet:
-/// pressures between a sheet and such springs need more waves than those between a sheet and penalty springs.
-void add_disk(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
-  if (contact.disk.is_given()) {
-    a.disk_compliance = contact.disk.yield(contact.radius, full);
-    a.M_tau = a.disk_by_shear = contact.disk.yield_by_shear(contact.radius, full);
-    a.disk_tangential = contact.disk.give_way(contact.radius, full);
-  } else {
-    a.disk_compliance = VectorXd::Constant(a.n, 1 / contact.modulus);
-    constexpr double stiffer = 3;
-    constexpr int many = 32;  // waves; of fewer the shortest is softer than most springs
-    if (full.highest < many || a.D.size() == 0 || min_compliance(full, a) * contact.modulus < stiffer)
-      return a.disk_compliance.resize(0);
-    a.disk_by_shear = MatrixXd::Zero(a.n, a.n_shears);
-    a.disk_tangential = VectorXd::Zero(a.n_shears);
+  const double constant = contact.disk.is_given() ? 0 : 1 / contact.modulus;
+  a.fall = (all.tail(std::min(group, a.n)).mean() - constant) * order(a.n - 1);
+  const double last = order(a.n - 1) + spacing / 2, first = 2 * last / 3;
+  const double at_last = constant + a.fall / last, jump = least_to_mean(a);
+  // The logarithm of what is left of a wave is -depth s(x) + steep h(x), x from 0 to 1 between `first` and `last`, with
+  // s' = h' = 0 at 0, s = 1, s' = 0, h = 0 and h' = 1 at 1.
+  const auto s = [](double x) { return x * x * (3 - 2 * x); };
+  const auto h = [](double x) { return x * x * (x - 1); };
+  const VectorXd x = VectorXd::NullaryExpr(
+      a.n, [&](Index k) { return k < a.n_long ? 0 : std::max(0.0, (order(k) - first) / (last - first)); });
+  const double steep = a.fall / last / at_last * (last - first) / last;
+  double of_s = 1 / last, of_h = 0;
+  for (Index k = a.n_long; k < a.n; k += group) {
+    of_s += spacing * s(x[k]) / (order(k) * order(k));
+    of_h += spacing * h(x[k]) / (order(k) * order(k));
   }
-  a.M.diagonal() = a.disk_compliance;
-  a.min_compliance = min_compliance(full, a);
+  const double beyond = std::log(jump * at_last / mean_beyond(last, constant, a.fall));
+  const double depth = (beyond / last + steep * of_h) / of_s;
+  a.part = x.unaryExpr([&](double at) { return std::exp(steep * h(at) - depth * s(at)); });
+  constexpr double below = 1 - 1e-6;  // the shortest wave, so that rounding leaves it a compliance
+  a.tail = below * jump * at_last * std::exp(-depth);
 }
 
-}  // namespace
+/// Compliance that each long wave of disk or springs lacks of the tail's, but no more than a part of the sheet's own.
+VectorXd lacking(const ShortWaves& a) {
+  const Index first = first_of_D(a);
+  if (a.D.size() == 0 || a.n_long <= first) return VectorXd::Zero(a.n_long);
+  constexpr double part = 0.6;
+  const Index n = a.n_long - first;
+  const double least = matrices::symmetric_eigenvalues(a.D.block(first, first, n, n))[0];
+  return (a.tail - a.disk_compliance.head(a.n_long).array()).min(part * least).max(0);
+}
 
-ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried) {
-  const auto& [full, long_waves] = std::tie(contact.pressures, carried.waves);
+/// The waves up to an order, long ones without what is moved into them.
+ShortWaves waves_up_to(int order, const formats::ContactRim& contact, const formats::WaveRim& carried) {
   ShortWaves a;
-  a.n_long = long_waves.size(), a.n = full.size(), a.n_long_shears = long_waves.n_shears(),
-  a.n_shears = full.n_shears();
+  a.pressures = contact.pressures;
+  a.pressures.highest = order;
+  a.n_long = carried.waves.size(), a.n = a.pressures.size(), a.n_long_shears = carried.waves.n_shears(),
+  a.n_shears = a.pressures.n_shears();
   const Index s = a.n - a.n_long, s_t = a.n_shears - a.n_long_shears;
   a.G = MatrixXd::Zero(s, a.n_long);
   a.G_t = MatrixXd::Zero(s, a.n_long_shears);
   a.E = MatrixXd::Zero(a.n_long, s_t);
   a.C_fixed = MatrixXd::Zero(a.n_long, a.n_long);
   a.R_fixed = MatrixXd::Zero(a.n_long, a.n_long_shears);
-  a.M = MatrixXd::Zero(a.n, a.n);
-  a.M_tau = MatrixXd::Zero(a.n, a.n_shears);
-  if (carried.has_closed_form()) a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
-  add_disk(contact, full, a);
-  if (!carried.has_closed_form() || s == 0) {
-    a.D.resize(0, 0);
-    return a;
-  }
+  if (carried.has_closed_form())
+    a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(a.pressures);
+  add_disk(contact, a);
+  set_tail(contact, a);
+  if (!carried.has_closed_form() || s == 0) return a;
   constexpr double rounding = 1e-13;  // waves of different order are uncoupled in an isotropic sheet
   a.D = (a.D.array().abs() > rounding * a.D.cwiseAbs().maxCoeff()).select(a.D, 0).eval();
   const MatrixXd nn = a.D.topLeftCorner(a.n, a.n), nt = a.D.topRightCorner(a.n, a.n_shears);
@@ -82,16 +142,64 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.M_tau.bottomRows(s) += nt.bottomRows(s);
   a.M_tau.topRightCorner(a.n_long, s_t) += nt.topRightCorner(a.n_long, s_t);
   a.M_tau.topLeftCorner(a.n_long, a.n_long_shears) += reaction * nt.bottomLeftCorner(s, a.n_long_shears);
+  const VectorXd root = a.part.cwiseSqrt();
+  a.M = (root.asDiagonal() * a.M * root.asDiagonal()).eval();
+  a.M_tau = (a.part.asDiagonal() * a.M_tau).eval();
   return a;
 }
 
-std::vector<std::shared_ptr<const ShortWaves>> short_waves_of(const formats::PlateMatrices& a) {
-  std::vector<std::shared_ptr<const ShortWaves>> result;
+}  // namespace
+
+ContactWaves::ContactWaves(const formats::ContactRim& contact, const formats::WaveRim& carried)
+    : contact_(contact), carried_(carried) {
+  auto fewest = waves_up_to(fewest_order(contact, carried), contact, carried);
+  fewest.moved = lacking(fewest);
+  fewest.M.diagonal().head(fewest.n_long) += fewest.moved;
+  fewest_ = std::make_shared<const ShortWaves>(std::move(fewest));
+}
+
+bool ContactWaves::is_of(const formats::ContactRim& contact, const formats::WaveRim& carried) const {
+  return contact_.pressures == contact.pressures && contact_.modulus == contact.modulus &&
+         contact_.radius == contact.radius && contact_.area == contact.area && contact_.disk == contact.disk &&
+         carried_.waves == carried.waves && carried_.compliance == carried.compliance;
+}
+
+bool ContactWaves::is_stiff() const {
+  constexpr double stiff = 3;
+  return contact_.disk.is_given() || fewest_->fall * contact_.modulus > stiff * fewest_->pressures.highest;
+}
+
+int ContactWaves::order(double gap, double mu, double force) const {
+  if (contact_.pressures.highest > 0) return contact_.pressures.highest;
+  // Half the arc on which two half-planes of the rims' compliance touch (Hertz), at most that of a disc without a gap.
+  double half_arc = std::numbers::pi / 2;
+  if (gap > 0 && force > 0) half_arc = std::min(half_arc, 2 * std::sqrt(force * fewest_->fall / (contact_.area * gap)));
+  const double per_arc = mu > 0 && is_stiff() ? 75 : 20;  // waves to half the arc for the aims of section 6.8
+  const double needed = std::min(per_arc / half_arc, double(highest_order));
+  return std::max(fewest_->pressures.highest, static_cast<int>(std::ceil(needed / 4)) * 4);
+}
+
+std::shared_ptr<const ShortWaves> ContactWaves::up_to(int order) const {
+  if (order == fewest_->pressures.highest) return fewest_;
+  const std::scoped_lock lock(mutex_);
+  auto& kept = kept_[order];
+  if (kept) return kept;
+  auto more = waves_up_to(order, contact_, carried_);
+  // The sheet's matrices fix the short waves of the fewest.
+  more.M.topLeftCorner(more.n_long, more.n_long) += fewest_->C_fixed - more.C_fixed;
+  more.M_tau.topLeftCorner(more.n_long, more.n_long_shears) += fewest_->R_fixed - more.R_fixed;
+  more.moved = fewest_->moved;
+  more.M.diagonal().head(more.n_long) += more.moved;
+  return kept = std::make_shared<const ShortWaves>(std::move(more));
+}
+
+std::vector<std::shared_ptr<const ContactWaves>> contact_waves_of(const formats::PlateMatrices& a) {
+  std::vector<std::shared_ptr<const ContactWaves>> result;
   for (Index i = 0; i < std::ssize(a.contact); ++i) {
-    auto& waves = result.emplace_back();
-    for (Index before = 0; !waves && before < i; ++before)
-      if (same(a.contact[before], a.waves[before], a.contact[i], a.waves[i])) waves = result[before];
-    if (!waves) waves = std::make_shared<const ShortWaves>(short_waves(a.contact[i], a.waves[i]));
+    const auto like =
+        std::ranges::find_if(result, [&](const auto& its) { return its->is_of(a.contact[i], a.waves[i]); });
+    auto waves = like != result.end() ? *like : std::make_shared<const ContactWaves>(a.contact[i], a.waves[i]);
+    result.push_back(std::move(waves));
   }
   return result;
 }

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
-#include <string>
+#include <mutex>
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
@@ -25,9 +26,11 @@ using Eigen::VectorXd;
 ///   d = w_L + G^T (p - K w)_S + E tau_S,   and   delta = d + C_fixed p_L + R_fixed tau_L.
 /// In an isotropic sheet waves of different order are uncoupled: delta = d = w_L.
 ///
-/// An elastic disk in place of the springs adds the compliance of its rim to M and M_tau; w is then the displacement
-/// of the rim of the disk relative to that of the sheet.
+/// The compliance of an elastic disk, or of the springs, is in M and M_tau too; w is then the displacement of the rim
+/// of the disk relative to that of the sheet. All waves beyond the shortest have the compliance `tail` (section 6.8),
+/// which in the long waves is more than that of the springs: what is missing is `moved` from the sheet into M.
 struct ShortWaves {
+  rim::Harmonics pressures{1};            ///< all
   Index n_long = 0, n = 0;                ///< pressure waves of the elements, and all
   Index n_long_shears = 0, n_shears = 0;  ///< the same for shear
   MatrixXd
@@ -35,19 +38,49 @@ struct ShortWaves {
   MatrixXd G, G_t, E;         ///< length / stress; short waves in the elements are -(G p_L + G_t tau_L)
   MatrixXd C_fixed, R_fixed;  ///< (n_long, n_long), (n_long, n_long_shears) length / stress
   MatrixXd M, M_tau;          ///< (n, n) positive semi-definite, (n, n_shears) length / stress
-  VectorXd disk_compliance;   ///< (n) of an elastic disk by pressure, length / stress; empty: springs are in its place
+  VectorXd disk_compliance;   ///< (n) of disk or springs by pressure, length / stress
   MatrixXd disk_by_shear;     ///< (n, n_shears) length / stress
   VectorXd disk_tangential;   ///< (n_shears) of the disk along shears, length / stress
-  double min_compliance = 0;  ///< minimum for sheet and disk over waves of order 2 and more, length / stress
+  double fall = 0;            ///< compliance of a wave times its order, without that of springs, length / stress
+  double tail = 0;            ///< length / stress
+  VectorXd part;              ///< (n) of its compliance that M has of each wave
+  VectorXd moved;             ///< (n_long) length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }
   /// Number of pressure and shear waves of the elements.
   [[nodiscard]] Index n_carried() const { return n_long + n_long_shears; }
 };
-[[nodiscard]] ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried);
 
-/// The short waves of all rims of contact of a plate; equal rims have one object in common.
-[[nodiscard]] std::vector<std::shared_ptr<const ShortWaves>> short_waves_of(const formats::PlateMatrices& a);
+/// The waves of a rim up to as many as a joint asks for.
+class ContactWaves {
+ public:
+  ContactWaves(const formats::ContactRim& contact, const formats::WaveRim& carried);
+
+  /// True if another rim has the same waves.
+  [[nodiscard]] bool is_of(const formats::ContactRim& contact, const formats::WaveRim& carried) const;
+  /// Highest order of the waves that contact asks for, a multiple of 4 if the file does not say it: the narrower the
+  /// arc on which a disc with a gap touches, the more waves (docs/theory.md, section 6.8).
+  /// @param force Largest force of a fastener.
+  [[nodiscard]] int order(double gap, double mu, double force) const;
+  /// Those of all orders up to one. They are kept, for any thread.
+  [[nodiscard]] std::shared_ptr<const ShortWaves> up_to(int order) const;
+  /// Those to which the sheet's matrices belong, the fewest that a joint asks for.
+  [[nodiscard]] const ShortWaves& fewest() const { return *fewest_; }
+  [[nodiscard]] int carried_order() const { return carried_.waves.highest; }
+  /// True of an elastic disk, and of springs that the shortest wave does not feel: with friction the stress then has a
+  /// square root at the end of contact, for which waves converge slowly.
+  [[nodiscard]] bool is_stiff() const;
+
+ private:
+  formats::ContactRim contact_;
+  formats::WaveRim carried_;
+  std::shared_ptr<const ShortWaves> fewest_;
+  mutable std::mutex mutex_;
+  mutable std::map<int, std::shared_ptr<const ShortWaves>> kept_;
+};
+
+/// The waves of all rims of contact of a plate; equal rims have one object in common.
+[[nodiscard]] std::vector<std::shared_ptr<const ContactWaves>> contact_waves_of(const formats::PlateMatrices& a);
 
 /// Rows and columns of a plate's matrices for the waves of its rims of contact in the elements: with F the pressure
 /// waves in excess of the springs' pressure (stress times area), tau the shear waves (stress), and d the means of the

@@ -156,29 +156,32 @@ void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
     const double min_value = min_ratio * eigen.values[k - 1];
     const auto n = (eigen.values.array() < min_value).count();
     const auto unresolved = eigen.vectors.leftCols(n);
-    compliance.block(row, row, k, k) += min_value * unresolved * unresolved.transpose();
+    const VectorXd lift = min_value - eigen.values.head(n).array().min(0);
+    compliance.block(row, row, k, k) += unresolved * lift.asDiagonal() * unresolved.transpose();
     row += k;
   }
 }
 
 /// Fixes the short waves of the rims of a plate at zero: replaces its moments d by those of ShortWaves, delta = d +
 /// C_fixed p + R_fixed tau, where p is minus the force on the moments over the area. In an isotropic sheet d = delta.
-void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ShortWaves>>& rims,
+void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ContactWaves>>& rims,
                      PlateDegrees& degrees) {
   MatrixXd &S = degrees.S.back(), &R = degrees.R.back(), &T = degrees.T.back();
   Index k = 0, n_shears = 0;
   bool uncoupled = true;
   for (const auto& rim : rims) {
-    k += rim->n_long;
-    n_shears += rim->n_long_shears;
-    uncoupled = uncoupled && rim->C_fixed.isZero(0) && rim->R_fixed.isZero(0);
+    const ShortWaves& its = rim->fewest();
+    k += its.n_long;
+    n_shears += its.n_long_shears;
+    uncoupled = uncoupled && its.C_fixed.isZero(0) && its.R_fixed.isZero(0);
   }
   if (uncoupled) return;
   MatrixXd C = MatrixXd::Zero(k, k), by_shear = MatrixXd::Zero(k, R.cols());  // by forces, and by all columns of R
   for (Index i = 0, row = 0, column = R.cols() - n_shears; i < std::ssize(rims); ++i) {
-    C.block(row, row, rims[i]->n_long, rims[i]->n_long) = rims[i]->C_fixed / a.contact[i].area;
-    by_shear.block(row, column, rims[i]->n_long, rims[i]->n_long_shears) = rims[i]->R_fixed;
-    row += rims[i]->n_long, column += rims[i]->n_long_shears;
+    const ShortWaves& its = rims[i]->fewest();
+    C.block(row, row, its.n_long, its.n_long) = its.C_fixed / a.contact[i].area;
+    by_shear.block(row, column, its.n_long, its.n_long_shears) = its.R_fixed;
+    row += its.n_long, column += its.n_long_shears;
   }
   R -= S.rightCols(k) * by_shear;
   const MatrixXd softened = MatrixXd::Identity(k, k) - S.bottomRightCorner(k, k) * C;
@@ -199,22 +202,28 @@ void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::sha
 /// Replaces the matrices of a plate with all its springs, whose rims of contact carry pressures q in addition, by those
 /// of the plate without the springs of these rims and with their moments as unknowns. F = S u + B^T q + R Lambda + T f
 /// and m = B u - C q + R_p Lambda + T_p f give q, and the force on the moments is K A m - q (docs/theory.md,
-/// section 6.3). The shears of these rims follow the friction cases in R.
+/// section 6.3). What ShortWaves::moved says is taken from their compliance (section 6.8). The shears of these rims
+/// follow the friction cases in R.
 void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level,
-               const std::vector<std::shared_ptr<const ShortWaves>>& short_waves, PlateDegrees& degrees) {
+               const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves, PlateDegrees& degrees) {
   const Index n = degrees.S.back().rows();
   if (a.contact.empty()) return;
   const RimMatrices rims = rim_matrices(a, level);
   const Index k = rims.C.rows();
-  VectorXd springs(k);
+  VectorXd springs(k), scale(k), moved(k);
   Index row = 0;
   for (Index i = 0; i < std::ssize(a.contact); ++i) {
     const Index n_long = a.waves[i].waves.size();
-    springs.segment(row, n_long).setConstant(a.contact[i].modulus * a.contact[i].area);
+    const double K = a.contact[i].modulus, area = a.contact[i].area;
+    const VectorXd& its = contact_waves[i]->fewest().moved;
+    scale.segment(row, n_long) = (1 + K * its.array()).inverse();
+    moved.segment(row, n_long) = scale.segment(row, n_long).cwiseProduct(its) / area;
+    springs.segment(row, n_long) = K * area * scale.segment(row, n_long);
     row += n_long;
   }
   const MatrixXd& B = rims.B;
   MatrixXd compliance = rims.C;
+  compliance.diagonal() -= moved;
   auto inverse = matrices::inverse_of_positive(compliance);
   constexpr double max_ratio = 1e6;  // to the stiffness of the springs
   if (!inverse || !((inverse->diagonal().array() / springs.array()).maxCoeff() < max_ratio)) {
@@ -227,7 +236,7 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   const auto extended = [&](MatrixXd& load, const MatrixXd& moments) {
     const MatrixXd by_load = stiffness * moments;
     load += B.transpose() * by_load;
-    load = stacked(load, -by_load);
+    load = stacked(load, -(scale.asDiagonal() * by_load));
   };
   degrees.C.back() -= rims.T.transpose() * by_traction;
   MatrixXd R(n, degrees.R.back().cols() + rims.R.cols()), R_p(k, R.cols());
@@ -237,10 +246,11 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   degrees.R.back() = std::move(R);
   extended(degrees.T.back(), rims.T);
   MatrixXd S(n + k, n + k);
-  S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose(), -by_motion, stiffness;
+  const auto D = scale.asDiagonal();
+  S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose() * D, -(D * by_motion), D * stiffness * D;
   S.diagonal().tail(k) -= springs;
   degrees.S.back() = std::move(S);
-  fix_short_waves(a, short_waves, degrees);
+  fix_short_waves(a, contact_waves, degrees);
 }
 
 /// Adds rows and columns for the displacements of discs that the file does not have, since symmetry fixes them. They
@@ -266,7 +276,7 @@ void add_fixed_discs(const PlateModel& plate, PlateDegrees& degrees) {
 }
 
 PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level,
-                           const std::vector<std::shared_ptr<const ShortWaves>>& short_waves) {
+                           const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves) {
   constexpr Index max_degrees = 4;  // no error estimate needs more
   const Index n = std::min(level + 1, max_degrees), first = level + 1 - n;
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
@@ -275,7 +285,7 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
     degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
     degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
     degrees.C.push_back(a.C_t[i]);
-    free_rims(file, a, i, short_waves, degrees);
+    free_rims(file, a, i, contact_waves, degrees);
   }
   degrees.R.erase(degrees.R.begin(), degrees.R.end() - std::min<Index>(std::ssize(degrees.R), 2));
   return degrees;
@@ -328,8 +338,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   check_contact(file, a, plate);
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
-  plate.short_waves = short_waves_of(a);
-  plate.degrees = degrees_up_to(file, a, level, plate.short_waves);
+  plate.contact_waves = contact_waves_of(a);
+  plate.degrees = degrees_up_to(file, a, level, plate.contact_waves);
   add_fixed_discs(plate, plate.degrees);
   plate.S = plate.degrees.S.back();
   plate.R = plate.degrees.R.back();

@@ -53,8 +53,8 @@ struct PlateModel : formats::PlateProperties {
   PlateDegrees degrees;                           ///< their sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
   std::optional<int> stress_level;  ///< of the stresses at the joint's degree, if there are any
-  std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) the waves of higher order, in closed form
-  std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses
+  std::vector<std::shared_ptr<const ContactWaves>> contact_waves{};  ///< (g) the waves of higher order, in closed form
+  std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};    ///< of each of `waves`, if it has stresses
   std::vector<MatrixXd> wave_rows{};  ///< PlateCases::W of all rims at the joint's degree and the one before
   bool peaks_alone = false;           ///< no errors of hoop stresses and no check of friction against the slip
 

@@ -35,9 +35,9 @@ Eigen::RowVectorXd describe(const RimProblem& problem, const VectorXd& c) {
     to = from + width(widest) / rim::degree;
   }
   const double deepest = rim.deepest(solution.w), depth = rim.depth(solution.w, deepest);
-  Eigen::RowVectorXd all(6);
+  Eigen::RowVectorXd all(7);
   all << touching / rim::degree, from, to, problem.modulus() * std::max(depth, 0.0), in_degrees(deepest),
-      std::max(-depth, 0.0);
+      std::max(-depth, 0.0), rim.pressures().highest;
   return all;
 }
 
@@ -59,11 +59,12 @@ PlateGroup contact_quantities(const PlateModel& plate) {
            {"contact/to", columns::angle, "end of this arc, counter-clockwise from x"},
            {"contact/peak_pressure", columns::stress, "largest pressure on the rim", "contact_pressure"},
            {"contact/peak_angle", columns::angle, "place of this pressure, or of the smallest gap"},
-           {"contact/least_gap", columns::length, "smallest gap between disc and rim, 0 where they touch"}},
+           {"contact/least_gap", columns::length, "smallest gap between disc and rim, 0 where they touch"},
+           {"contact/harmonics", columns::ratio, "highest order of the waves of pressure that were taken"}},
           [g](const PlateAt& at) {
             const JointEquations& equations = at.of.equations;
             const Index first = first_rim(at.of.joint, at.plate);
-            MatrixXd all(g, 6);
+            MatrixXd all(g, 7);
             for (Index i = 0; i < g; ++i)
               all.row(i) = describe(*equations.rims[first + i], equations.of_rim(at.of.step.c, first + i));
             return all;

@@ -26,6 +26,7 @@ double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 struct Curve {
   VectorXd angles, values;
   std::function<double(double)> at;
+  std::shared_ptr<const HoopStress> on_rim;
 };
 
 class PeakSearch {
@@ -53,11 +54,12 @@ class PeakSearch {
   /// Hoop stress from the displacements of one degree up to an order.
   [[nodiscard]] Curve curve(Index degree, const rim::Harmonics& shape,
                             const std::shared_ptr<const TractionWaves>& tractions) const {
-    const HoopStress on_rim = rim_.hoop(degree, shape, tractions);
-    if (distance_ == 0) return {on_rim.angles(), on_rim.values(), [on_rim](double angle) { return on_rim.at(angle); }};
-    const NearStress near(on_rim, distance_);
+    const auto on_rim = std::make_shared<const HoopStress>(rim_.hoop(degree, shape, tractions));
+    if (distance_ == 0)
+      return {on_rim->angles(), on_rim->values(), [on_rim](double angle) { return on_rim->at(angle); }, on_rim};
+    const NearStress near(*on_rim, distance_);
     const auto hoop = [near](double angle) { return near.at(angle)[1]; };
-    return {on_rim.angles(), on_rim.angles().unaryExpr(hoop), hoop};
+    return {on_rim->angles(), on_rim->angles().unaryExpr(hoop), hoop, on_rim};
   }
 
   /// Largest of all values at the points and at kinks of the tractions, then the largest within a step of it.
@@ -133,39 +135,47 @@ class PeakSearch {
                              const std::shared_ptr<const TractionWaves>& tractions) const {
     const rim::Harmonics& all = rim_.rim.waves;
     // One wave tells nothing about further ones.
-    if (rim_.degrees.size() < 2 || all.highest < 2 || !std::isfinite(rim_.beyond_half))
+    if (rim_.degrees.size() < 2 || all.highest < 2 || (rim_.in_contact && !std::isfinite(rim_.beyond)))
       return std::numeric_limits<double>::infinity();
-    const auto up_to = [&](int fewer) {
-      rim::Harmonics shape = all;
-      shape.highest = std::max(all.highest - fewer, 1);
-      return curve(0, shape, tractions);
-    };
-    const double by_degree = change(hoop, curve(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
+    const Curve lower = curve(1, all, rim_.in_contact ? tractions : rim_.traction_waves(rim_.degrees[1].tractions));
+    const double by_degree = largest(lower.values - hoop.values, hoop, peak.angle);
     // Changes by successive pairs of orders alternate around shapes of four sides: they fall over two pairs at a time.
     const int n = all.highest < 8 ? 1 : 2;  // pairs
-    std::vector<Curve> shorter{hoop};
-    std::array<double, 2> changed{};  // by the last n pairs, and by those before
-    for (int pair = 0; pair < 2 * n; ++pair) {
-      shorter.push_back(up_to(2 * pair + 2));
-      changed[pair / n] += change(shorter[pair], shorter[pair + 1], peak.angle);
+    std::array<double, 2> changed{};        // by the last n pairs, and by those before
+    for (int pair = 0, end = all.highest; pair < 2 * n; ++pair) {
+      const int first = std::max(end - 2, 1);
+      changed[pair / n] += largest(change_by_orders(hoop, tractions, first, end), hoop, peak.angle);
+      end = first;
     }
     const double fastest = std::pow(0.1, n), slowest = std::pow(0.8, n);
     const double fall = std::clamp(changed[1] > 0 ? changed[0] / changed[1] : slowest, fastest, slowest);
     double by_waves = 0;
     if (rim_.in_contact)
-      if (const auto other = top(curve(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
+      if (const auto other = top(curve(0, all, rim_.traction_waves(rim_.by_fewer)), rim_.kinks_by_fewer))
         by_waves = std::abs(other->value - peak.value);
-    return 2 * by_degree + changed[0] * fall / (1 - fall) + rim_.beyond_half * by_waves;
+    return 2 * by_degree + changed[0] * fall / (1 - fall) + (rim_.in_contact ? rim_.beyond * by_waves : 0);
   }
 
-  /// Largest difference of two hoop stresses within 45 degrees of an angle.
-  [[nodiscard]] double change(const Curve& a, const Curve& b, double at) const {
+  /// Change of the hoop stress at the points if orders first..end-1 followed from the tractions.
+  [[nodiscard]] VectorXd change_by_orders(const Curve& hoop, const std::shared_ptr<const TractionWaves>& tractions,
+                                          int first, int end) const {
+    if (distance_ == 0) return hoop.on_rim->change_by_tractions(first, end);
+    rim::Harmonics shape = rim_.rim.waves;
+    const auto up_to = [&](int order) {
+      shape.highest = order;
+      return curve(0, shape, tractions).values;
+    };
+    return up_to(first) - up_to(end);
+  }
+
+  /// Largest magnitude at the points within 45 degrees of an angle.
+  [[nodiscard]] double largest(const VectorXd& all, const Curve& hoop, double angle) const {
     constexpr double around = rim::full_turn / 8;
-    double largest = 0;
-    for (Index i = 0; i < a.angles.size(); ++i)
-      if (is_allowed(a.angles[i]) && std::abs(rim::wrapped(a.angles[i] - at)) <= around)
-        largest = std::max(largest, std::abs(a.values[i] - b.values[i]));
-    return largest;
+    double found = 0;
+    for (Index i = 0; i < all.size(); ++i)
+      if (is_allowed(hoop.angles[i]) && std::abs(rim::wrapped(hoop.angles[i] - angle)) <= around)
+        found = std::max(found, std::abs(all[i]));
+    return found;
   }
 
   const LoadedRim& rim_;

@@ -55,6 +55,9 @@ class HoopStress {
 
   /// Hoop stress at an angle, radians.
   [[nodiscard]] double at(double angle) const;
+  /// Change of the hoop stress at the points if orders first..end-1 of the elements followed from the tractions, as all
+  /// shorter waves do, (n_points).
+  [[nodiscard]] Eigen::VectorXd change_by_tractions(int first, int end) const;
   /// Angles of the points of TractionWaves, radians, and the hoop stress there.
   [[nodiscard]] const Eigen::VectorXd& angles() const { return angles_; }
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
@@ -65,10 +68,15 @@ class HoopStress {
 
  private:
   /// Hoop stress by the hoop strain.
-  [[nodiscard]] double hoop(double angle, double strain, const Eigen::Vector2d& traction) const;
+  /// @param normal (cos, sin) of the angle.
+  [[nodiscard]] double hoop(double angle, const Eigen::Vector2d& normal, double strain,
+                            const Eigen::Vector2d& traction) const;
   /// Hoop strain.
-  /// @param short_waves  Sum over m >= first_short of (X_m, Y_m) e^(-i m angle).
-  [[nodiscard]] double strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const;
+  /// @param imaginary Imaginary part of the sum over m >= first_short of (X_m, Y_m) e^(-i m angle).
+  [[nodiscard]] double strain(const Eigen::Vector2d& normal, const Eigen::Vector2d& imaginary,
+                              const Eigen::Vector2d& traction) const;
+  /// Hoop stress at the points of waves first.. of (du_x/dtheta, du_y/dtheta) over the radius, without tractions.
+  [[nodiscard]] Eigen::VectorXd of_slopes(const Eigen::Matrix2Xcd& slopes, int first) const;
 
   rim::RimCompliance sheet_;
   std::shared_ptr<const TractionWaves> tractions_;

@@ -28,7 +28,7 @@ std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
   for (Index i = 0; i < std::ssize(plate.contact); ++i) {
     const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
     n_added += of_field.size() + of_field.n_shears();
-    n_w += plate.contact[i].pressures.size();
+    n_w += of_field.size();
   }
   return {
       PlateGroup(Of::external, e,

@@ -203,8 +203,8 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
     const ContactLoad& load = contacts[i];
     const double modulus = plate.contact[i].modulus;
     const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
-    append(wave_coefficients(load, *plate.short_waves[i], modulus), waves);
-    append(load.w, w);
+    append(wave_coefficients(load, modulus), waves);
+    append(load.w.head(of_field.size()), w);
     append((load.pressure - modulus * load.w).head(of_field.size()), added);
     append(load.shear.head(of_field.n_shears()), added);
   }
@@ -228,8 +228,11 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   const VectorXd on_discs = forces_on_discs(joint, equations, step);
   JointState state;
   std::vector<ContactLoad> contacts;
-  for (Index i = 0; i < std::ssize(equations.rims); ++i)
-    contacts.push_back(contact_load(*equations.rims[i], equations.rims[i]->solve(equations.of_rim(step.c, i)).w));
+  for (const PlateModel& plate : joint.plates)
+    for (const auto& waves : plate.contact_waves) {
+      const Index i = std::ssize(contacts);
+      contacts.push_back(contact_load(*equations.rims[i], *waves, equations.of_rim(step.c, i)));
+    }
   state.plates = plate_loads(joint, system, contacts, D, load, step.Lambda);
   state.transferred_first = transferred(equations, step.F, 0);
   state.transferred_second = transferred(equations, step.F, 1);

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ranges>
 #include <utility>
 
@@ -72,23 +71,26 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
 
 /// Tractions of contact: the pressure of the springs, and friction proportional to it.
 Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contour) {
-  return [gap = load.gap, modulus = load.modulus, contour](double angle) -> Eigen::Vector2d {
-    const double p = modulus * std::max(contour.shape.sum_at(contour.w, angle).first - gap, 0.0);
+  return [gap = load.gap, contour](double angle) -> Eigen::Vector2d {
+    const double p = contour.modulus * std::max(contour.shape.sum_at(contour.w, angle).first - gap, 0.0);
     return {p, -contour.mu * p * sign_of(std::sin(angle - contour.direction))};
   };
 }
 
 /// @param w Waves of the displacement, as many as the rim's.
-ContactLoad::Contour contour_of(const CompressionOnlyRim& rim, const Touching& touching, const RimFriction& friction,
+ContactLoad::Contour contour_of(const RimProblem& rim, const Touching& touching, const RimFriction& friction,
                                 const VectorXd& w) {
-  ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.excess, friction.direction, {}, friction.slips};
+  const CompressionOnlyRim& contact = rim.contact();
+  ContactLoad::Contour contour{
+      contact.pressures(), w, contact.mu() / friction.excess, rim.modulus(), friction.direction, {}, friction.slips};
   for (const auto& arc : touching.arcs) contour.ends.insert(contour.ends.end(), {arc.from, arc.to});
   return contour;
 }
 
 /// Corrects the displacement of the elements, where short waves are those of linear springs, to that under the contact
 /// load.
-void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, VectorXd& displacement) {
+void correct(const ContactLoad& load, double modulus, VectorXd& displacement) {
+  const ShortWaves& rim = *load.waves;
   if (rim.is_empty()) return;
   const Index s = rim.n - rim.n_long, s_t = rim.n_shears - rim.n_long_shears;
   const VectorXd p_s = load.pressure.tail(s), tau_s = load.shear.tail(s_t);
@@ -101,7 +103,8 @@ void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, Vec
 
 /// Waves of the tangential displacement of the disc relative to the sheet, (n_shears).
 /// @param along The long ones, for a rigid disc.
-VectorXd slip_of(const ContactLoad& load, const ShortWaves& rim, const VectorXd& along) {
+VectorXd slip_of(const ContactLoad& load, const VectorXd& along) {
+  const ShortWaves& rim = *load.waves;
   VectorXd slip(rim.n_shears);
   slip.head(along.size()) = along;
   const Index s_t = rim.n_shears - rim.n_long_shears;
@@ -109,8 +112,7 @@ VectorXd slip_of(const ContactLoad& load, const ShortWaves& rim, const VectorXd&
     const auto rows = rim.D.bottomRows(s_t);
     slip.tail(s_t) = -(rows.leftCols(rim.n) * load.pressure + rows.rightCols(rim.n_shears) * load.shear);
   }
-  if (rim.disk_compliance.size() > 0)
-    slip -= rim.disk_by_shear.transpose() * load.pressure + rim.disk_tangential.cwiseProduct(load.shear);
+  slip -= rim.disk_by_shear.transpose() * load.pressure + rim.disk_tangential.cwiseProduct(load.shear);
   return slip;
 }
 
@@ -132,22 +134,23 @@ ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
   const CompressionOnlyRim& contact = rim.contact();
   const Touching touching = contact.touching(w);
   const RimFriction friction = rim_friction(contact, touching, w);
-  rim::Harmonics fewer = contact.pressures();
-  fewer.highest = std::max(fewer.highest / 2, 1);
-  const CompressionOnlyRim half(fewer, contact.stiffness(), contact.gap(), contact.mu());
-  const VectorXd w_half = w.head(half.size());
-  const Touching of_half = half.touching(w_half);
   const VectorXd pressure = contact.forces(touching, w) / rim.area(), shear = friction.forces / rim.area();
-  return {rim.against_sheet(w, pressure, shear),
-          pressure,
-          shear,
-          contact.gap(),
-          rim.modulus(),
-          contour_of(contact, touching, friction, w),
-          contour_of(half, of_half, rim_friction(half, of_half, w_half), w_half)};
+  return {rim.against_sheet(w, pressure, shear),  pressure, shear, contact.gap(), rim.waves(),
+          contour_of(rim, touching, friction, w), {}};
 }
 
-VectorXd wave_coefficients(const ContactLoad& load, const ShortWaves& rim, double modulus) {
+ContactLoad contact_load(const RimProblem& rim, const ContactWaves& waves, const VectorXd& c) {
+  ContactLoad load = contact_load(rim, rim.solve(c).w);
+  const int order = load.all.shape.highest, fewer = std::max(waves.carried_order(), order / 2);
+  if (fewer >= order) return load;
+  const RimProblem by_fewer(waves.up_to(fewer), rim.area(), rim.k(), rim.contact().gap(), rim.contact().mu());
+  if (const RimSolution& its = by_fewer.solve(c); its.converged)
+    load.fewer = contour_of(by_fewer, its.touching, its.friction, its.w);
+  return load;
+}
+
+VectorXd wave_coefficients(const ContactLoad& load, double modulus) {
+  const ShortWaves& rim = *load.waves;
   VectorXd w = load.w.head(rim.n_long);
   if (!rim.is_empty())
     w += rim.G.transpose() * (load.pressure - modulus * load.w).tail(rim.n - rim.n_long) +
@@ -201,24 +204,25 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     const KnownLoads known = known_loads(plate, rim.hole, coefficients);
     for (const auto& rows : plate.wave_rows | std::views::take(plate.peaks_alone ? 1 : plate.wave_rows.size())) {
       VectorXd displacement = rows.middleRows(first, rim.size()) * coefficients / rim.area;
-      if (in_contact) correct(contacts[i], *plate.short_waves[i], rim.modulus, displacement);
+      if (in_contact) correct(contacts[i], rim.modulus, displacement);
       const Tractions tractions =
           in_contact ? of_contact(contacts[i], contacts[i].all)
                      : springs_and(rim, plate.spring_waves[i].get(), displacement.head(rim.waves.size()), known);
       loaded->degrees.push_back({std::move(displacement), tractions});
     }
     if (in_contact) {
-      loaded->kinks = contacts[i].all.ends;
-      loaded->kinks_by_half = contacts[i].half.ends;
-      if (contacts[i].all.mu > 0 && contacts[i].all.slips && !plate.peaks_alone) {
-        loaded->all = contacts[i].all.shape;
-        loaded->slip =
-            slip_of(contacts[i], *plate.short_waves[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
+      const auto& [all, fewer] = std::tie(contacts[i].all, contacts[i].fewer);
+      loaded->kinks = all.ends;
+      if (all.mu > 0 && all.slips && !plate.peaks_alone) {
+        loaded->all = all.shape;
+        loaded->slip = slip_of(contacts[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
       }
-      constexpr double of_root = 1.5;
-      if (plate.short_waves[i]->disk_compliance.size() > 0 && contacts[i].all.mu > 0) loaded->beyond_half = of_root;
-      if (contacts[i].all.shape.highest < 2) loaded->beyond_half = std::numeric_limits<double>::infinity();
-      loaded->by_half = of_contact(contacts[i], contacts[i].half);
+      if (fewer) {
+        const double rate = plate.contact_waves[i]->is_stiff() && all.mu > 0 ? 0.5 : 1.5;
+        loaded->beyond = 1 / (std::pow(double(all.shape.highest) / fewer->shape.highest, rate) - 1);
+        loaded->kinks_by_fewer = fewer->ends;
+        loaded->by_fewer = of_contact(contacts[i], *fewer);
+      }
     }
     if (!in_contact && rim.modulus > 0)
       for (const auto& arc : rim.acts) loaded->kinks.insert(loaded->kinks.end(), {arc.from, arc.to});

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/infinite.hpp"
 #include "stage3_nonlinear/interfaces/rim_problem.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 #include "stage3_nonlinear/results/hoop_stress.hpp"
@@ -24,13 +25,13 @@ struct LoadedRim {
   std::vector<RimWaves> degrees;  ///< the joint's, then the one below if there is one
   bool in_contact;
   std::vector<double> kinks;  ///< angles at which tractions have kinks or jumps, radians
-  // Only in contact: tractions and their kinks by waves up to half the order.
-  Tractions by_half{};
-  std::vector<double> kinks_by_half{};
-  /// Estimated change of the peak by all further waves over that by the upper half of the waves. With friction on an
-  /// elastic disk the stress behaves like a square root at the end of contact, and the peak converges as N^-1/2.
-  /// Infinite of one wave alone.
-  double beyond_half = 0.5;
+  // Only in contact: tractions and their kinks by fewer waves.
+  Tractions by_fewer{};
+  std::vector<double> kinks_by_fewer{};
+  /// Estimated change of the peak by all further waves over that from the fewer waves. It falls as N^-3/2 or faster;
+  /// with friction on an elastic disk the stress is like a square root at the end of contact, and it falls as N^-1/2.
+  /// Infinite if there are no fewer waves.
+  double beyond = infinite;
   VectorXd slip{};        ///< all waves of the tangential displacement of the disc relative to the sheet, length; none
                           ///< without friction and of a rim that sticks
   rim::Harmonics all{1};  ///< its shears are the waves of `slip`
@@ -51,27 +52,32 @@ struct LoadedRim {
 
 /// Displacement and tractions of a rim of contact.
 struct ContactLoad {
-  VectorXd w;           ///< (n) all waves of the disc's normal displacement relative to the sheet, length
-  VectorXd pressure;    ///< (n) waves of the pressure on the sheet, stress
-  VectorXd shear;       ///< waves of the shear on it, stress; 0 without friction
-  double gap, modulus;  ///< radial, length; pressure per unit of overlap of the rims, force / length^3
+  VectorXd w;         ///< (n) all waves of the disc's normal displacement relative to the sheet, length
+  VectorXd pressure;  ///< (n) waves of the pressure on the sheet, stress
+  VectorXd shear;     ///< waves of the shear on it, stress; 0 without friction
+  double gap;         ///< radial, length
+  std::shared_ptr<const ShortWaves> waves;
   /// The tractions as functions of the angle, from the waves of the displacement up to the order of `shape`.
   struct Contour {
     rim::Harmonics shape;
     VectorXd w;                ///< without the compliance of an elastic disk, length
     double mu;                 ///< shear over pressure; less than that of the fastener if the rim sticks
+    double modulus;            ///< pressure per unit of overlap of the rims, force / length^3
     double direction;          ///< of the resultant of the pressure on the sheet, radians
     std::vector<double> ends;  ///< of the arcs of contact, radians
     bool slips = true;         ///< else the rim sticks, and where it does so is not known
   };
-  Contour all, half;  ///< from all waves, and from those up to half the order, to estimate the effect of further ones
+  Contour all;                   ///< from all waves
+  std::optional<Contour> fewer;  ///< the same rim by fewer waves, to estimate the effect of further ones
 };
 /// Contact for given waves w of the displacement, (n), length.
 [[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const VectorXd& w);
+/// Contact of a rim with the coordinates c, and by about half the waves.
+[[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const ContactWaves& waves, const VectorXd& c);
 
 /// Coefficients of the waves of the elements under a contact load: pressures in excess of that of the springs in S,
 /// then shears, (n_carried), stress.
-[[nodiscard]] VectorXd wave_coefficients(const ContactLoad& load, const ShortWaves& rim, double modulus);
+[[nodiscard]] VectorXd wave_coefficients(const ContactLoad& load, double modulus);
 
 /// Rims of a plate in the order of PlateModel::waves; none for rims without a closed form.
 /// @param coefficients  Of the file's unit cases, (n_cases).

@@ -84,21 +84,22 @@ def elastic_pins(folder):
     for gap, pressure, hoop in ((0, 1.1993, 0.9066), (1, 1.4092, 1.1490)):
         found = solve(gap * 1000 / E)
         near(f"elastic pin, E g t/P = {gap}: hoop stress", found["hoop"][0], 500 * hoop, 5e-3, found["bar"][0])
-        near("  peak pressure", found["pressure"][0], 500 * pressure, 5e-3)
+        near("  peak pressure", found["pressure"][0], 500 * pressure, 1.5e-3)
     for half_angle in (84.9, 75, 61, 45, 30, 20, 10):
         found = solve(persson_gap(half_angle) * 1000 / E)
-        near("elastic pin: half-angle of contact by Persson, degrees", found["half-angle"][0], half_angle, 0.2, absolute=True)
+        near("elastic pin: half-angle of contact by Persson, degrees", found["half-angle"][0], half_angle, 0.01, absolute=True)
 
 
 def stiff_springs(folder):
-    """Springs much stiffer than the sheet are as good as an elastic disk as stiff: peaks and bars are those of a nearly rigid pin."""
+    """Springs much stiffer than the sheet are as good as an elastic disk as stiff: peaks and bars are those of a nearly rigid pin. With friction
+    the stress has a square root at the end of contact, which feels a compliance of 1 / 300 as one of its root."""
     E, nu, gap = 70e3, 0.3, 0.01
     for mu in (0, 0.15):
         disk = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": 1000 * E, "nu": nu, "law": "elastic"}}, WIDE, friction=mu)(gap)
-        for ratio, share in ((300, 5e-3), (9000, 1e-4)):  # 1 / 300 of the sheet's compliance is left
+        for ratio, share in ((300, 5e-3 if mu == 0 else 2e-2), (9000, 1e-4 if mu == 0 else 1e-3)):
             found = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, ratio * E, WIDE, friction=mu)(gap)
             near(f"springs of {ratio} E / r, friction {mu}: hoop stress as of a stiff disk", found["hoop"][0], disk["hoop"][0], share)
-            near("  its error bar", found["bar"][0], disk["bar"][0], 0.1)
+            near("  its error bar", found["bar"][0], disk["bar"][0], 0.1 if mu == 0 else 0.3)
 
 
 def elastic_pins_with_friction(folder):
@@ -122,9 +123,11 @@ def friction_against_slip(folder):
     E, nu = 70e3, 0.3
     for law, truths in (("plane stress", {0.15: (0, 0), 0.3: (3.5, 0)}), ("elastic", {0.05: (0, 0), 0.15: (10, 0), 0.3: (42.5, 6)})):
         for mu, (without, with_gap) in truths.items():
-            solve = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": E, "nu": nu, "law": law}}, WIDE, friction=mu)
-            for gap, truth in ((0, without), (1, with_gap)):
-                near(f"{law}, friction {mu}, E g t/P = {gap}: against the slip, degrees", solve(gap * 1000 / E)["against"][0], truth, 1, absolute=True)
+            for waves, allowed in (({}, 4), ({"harmonics": 64}, 1)):
+                solve = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": E, "nu": nu, "law": law}, **waves}, WIDE, friction=mu)
+                for gap, truth in ((0, without), (1, with_gap)):
+                    near(f"{law}, friction {mu}, E g t/P = {gap}, {waves}: against the slip, degrees", solve(gap * 1000 / E)["against"][0], truth,
+                         allowed, absolute=True)
     matrices(folder, plate({"E": E, "nu": nu}, WIDE, [0, *(y for y in WIDE if y > 0)],
                            {"spring": {"compression_only": True, "disk": {"E": E, "nu": nu, "law": "elastic"}}}, supports=[{"on": "bottom", "fix": ["y"]}],
                            external=[{"id": end, "on": end, "direction": "x", "kind": "rigid"} for end in ("left", "right")]))

@@ -81,7 +81,7 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
       rim.disk = {decades(random, 100, 10000), uniform(random, 0, 0.5)};
     auto& carried = body.waves.emplace_back(formats::WaveRim{rim.hole, pressures, rim.radius, rim.area, rim.modulus});
     if (kind.short_waves) carried.compliance = random_sheet(random);
-    body.short_waves.push_back(std::make_shared<const ShortWaves>(short_waves(rim, carried)));
+    body.contact_waves.push_back(std::make_shared<const ContactWaves>(rim, carried));
   }
   body.on_springs.assign(body.holes.size(), true);
   for (Index d = 0; d < a; ++d) body.axes.push_back(static_cast<int>(d));
