@@ -281,7 +281,7 @@ void FastenerInterface::add_law_changes(const VectorXd& c, const MatrixXd& by_fo
     if (here.isZero(0) || contact.is_pulled_open(here)) continue;
     const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
     for (Index i = 0; i < std::ssize(slopes); ++i) {
-      VectorXd F = VectorXd::Zero(c.size()), delta = F;
+      VectorXd F = VectorXd::Zero(c.size()), delta = VectorXd::Zero(c.size());
       F.segment(j * a, a) = slopes[i].F * e;
       delta.segment(j * a, a) = slopes[i].delta * e;
       const NumberKind kind = i == 0 ? NumberKind::clearance : NumberKind::law;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::stage3 {
@@ -17,6 +18,7 @@ constexpr int max_pressure_steps = 100, max_step_halvings = 20;
 double contact_stiffness(const ShortWaves& waves, double area, double k) {
   MatrixXd compliance = waves.M / area;
   compliance.diagonal().head(waves.n_long).array() += 1 / k;
+  constexpr int max_tries = 200;
   constexpr double factor = 1.25, margin = 1 + 1e-7;  // over the stiffness at which a wave would have no compliance
   double stiffness = area / waves.tail;
   const auto is_enough = [&] {
@@ -24,7 +26,8 @@ double contact_stiffness(const ShortWaves& waves, double area, double k) {
     rest.diagonal().array() -= margin / stiffness;
     return matrices::is_positive_definite(rest);
   };
-  while (!is_enough()) stiffness *= factor;
+  for (int tries = 0; !is_enough(); ++tries, stiffness *= factor)
+    if (tries > max_tries) throw NumericalError("the waves of a rim of contact have no positive compliance");
   return stiffness;
 }
 
@@ -225,12 +228,14 @@ RimSolution RimProblem::solution(const VectorXd& c, const VectorXd& start) const
       result.converged = solve_with_friction(b, at) || solve_by_more_friction(b, w, at);
     }
     if (at.friction.slips) rhs.rightCols(1) = -waves_->M_tau * at.friction.forces / (area_ * contact_.mu());
-    rhs = matrices::Lu(jacobian(at)).solve(std::move(rhs));
+    if (!at.touching.arcs.empty()) rhs = matrices::Lu(jacobian(at)).solve(std::move(rhs));
   } else {
     at = solve_frictionless(b, start.size() > 0 ? start : b);
-    rhs = solve_root(rhs);
-    curvature(at.touching).llt().solveInPlace(rhs);
-    for (auto column : rhs.colwise()) column = forward(column);
+    if (!at.touching.arcs.empty()) {
+      rhs = solve_root(rhs);
+      curvature(at.touching).llt().solveInPlace(rhs);
+      for (auto column : rhs.colwise()) column = forward(column);
+    }
   }
   result.w_by_c = rhs.leftCols(n_long());
   result.w_by_mu = rhs.rightCols(1);

@@ -25,7 +25,8 @@ struct RimSolution {
 
 /// The local problem of a rim of contact: all waves of its displacement and pressure, short ones included, for given
 /// contact coordinates c = F + k delta of its long waves (docs/theory.md, section 6.4),
-///   w + M_k f + M_tau tau = (c / k, 0),   f = K A <w - g>_+ in waves,   M_k = M / A, plus 1 / k for long waves.
+///   w + M_k f + M_tau tau = (c / k, 0),   f = kappa <w - g>_+ in waves,   M_k = M / A - 1 / kappa
+/// and 1 / k for long waves.
 /// Without friction the solution minimises a strictly convex function.
 ///
 /// Between the rims are springs of the compliance that all waves beyond the shortest have; it is subtracted from M_k

@@ -21,7 +21,8 @@ constexpr int least_order = 24, highest_order = 128;
 /// change by the shorter waves shows their error.
 int fewest_order(const formats::ContactRim& contact, const formats::WaveRim& carried) {
   if (contact.pressures.highest > 0) return contact.pressures.highest;
-  return std::max(least_order, (3 * carried.waves.highest / 2 + 3) / 4 * 4);
+  const int more = std::max(least_order, (3 * carried.waves.highest / 2 + 3) / 4 * 4);
+  return std::max(carried.waves.highest, std::min(more, rim::max_harmonics));
 }
 
 /// Mean compliance of the waves beyond an order, of each of which it is constant + fall / order, length / stress. With
@@ -49,8 +50,10 @@ void add_disk(const formats::ContactRim& contact, ShortWaves& a) {
   a.M_tau = a.disk_by_shear;
 }
 
-/// Index of the first wave of order 2; D does not have those before.
-Index first_of_D(const ShortWaves& a) { return a.pressures.is_whole() ? 3 : 2; }
+/// Index of the first wave of order 2, also of half or a quarter of a rim; D does not have those before.
+Index first_of_D(const ShortWaves& a) {
+  return a.pressures.is_whole() ? 3 : std::lround(2 * a.pressures.sweep / std::numbers::pi);
+}
 
 /// Smallest eigenvalue of the compliance with ones on its diagonal: below 1 in a laminate, whose rim is stiffer at some
 /// places than at others.
@@ -71,13 +74,19 @@ void set_tail(const formats::ContactRim& contact, ShortWaves& a) {
   const rim::Harmonics& shape = a.pressures;
   const Index group = shape.is_whole() ? 2 : 1;  // waves of one order
   const double spacing = shape.is_whole() ? 1 : std::numbers::pi / shape.sweep;
-  const auto order = [&](Index k) { return spacing * double((k + group - 1) / group); };
+  const auto order = [&](Index k) {
+    const Index number = (k + group - 1) / group;
+    return spacing * double(number);
+  };
   VectorXd all = a.disk_compliance;
   if (a.D.size() > 0) all += a.D.diagonal().head(a.n);
   const double constant = contact.disk.is_given() ? 0 : 1 / contact.modulus;
   a.fall = (all.tail(std::min(group, a.n)).mean() - constant) * order(a.n - 1);
   const double last = order(a.n - 1) + spacing / 2, first = 2 * last / 3;
   const double at_last = constant + a.fall / last, jump = least_to_mean(a);
+  a.part = VectorXd::Ones(a.n);
+  a.tail = a.disk_compliance[0];
+  if (!(at_last > 0)) return;  // of a disk with waves of order 1 alone, which have no compliance
   // The logarithm of what is left of a wave is -depth s(x) + steep h(x), x from 0 to 1 between `first` and `last`, with
   // s' = h' = 0 at 0, s = 1, s' = 0, h = 0 and h' = 1 at 1.
   const auto s = [](double x) { return x * x * (3 - 2 * x); };

@@ -34,7 +34,7 @@ struct ShortWaves {
   Index n_long = 0, n = 0;                ///< pressure waves of the elements, and all
   Index n_long_shears = 0, n_shears = 0;  ///< the same for shear
   MatrixXd
-      D;  ///< (n + n_shears)^2 displacements of an infinite sheet by tractions, length / stress; empty: no short waves
+      D;  ///< (n + n_shears)^2 displacements of an infinite sheet by tractions, length / stress; empty: no closed form
   MatrixXd G, G_t, E;         ///< length / stress; short waves in the elements are -(G p_L + G_t tau_L)
   MatrixXd C_fixed, R_fixed;  ///< (n_long, n_long), (n_long, n_long_shears) length / stress
   MatrixXd M, M_tau;          ///< (n, n) positive semi-definite, (n, n_shears) length / stress
@@ -62,7 +62,7 @@ class ContactWaves {
   /// arc on which a disc with a gap touches, the more waves (docs/theory.md, section 6.8).
   /// @param force Largest force of a fastener.
   [[nodiscard]] int order(double gap, double mu, double force) const;
-  /// Those of all orders up to one. They are kept, for any thread.
+  /// Those of all orders up to one, for the sheet's matrices with the fewest. They are kept, for any thread.
   [[nodiscard]] std::shared_ptr<const ShortWaves> up_to(int order) const;
   /// Those to which the sheet's matrices belong, the fewest that a joint asks for.
   [[nodiscard]] const ShortWaves& fewest() const { return *fewest_; }

@@ -129,8 +129,8 @@ class PeakSearch {
   }
 
   /// Sum of twice the change from the degree below, the extrapolated change by all further orders, from that by the
-  /// last two or four pairs of orders, and in contact a fraction of the change of the peak by the waves beyond half the
-  /// order (docs/theory.md, section 11.4).
+  /// last two or four pairs of orders, and in contact that of the peak by all further waves, from that by fewer waves
+  /// (docs/theory.md, section 11.4).
   [[nodiscard]] double error(const Curve& hoop, const Peak& peak,
                              const std::shared_ptr<const TractionWaves>& tractions) const {
     const rim::Harmonics& all = rim_.rim.waves;

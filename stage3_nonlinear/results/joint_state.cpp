@@ -231,7 +231,10 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   for (const PlateModel& plate : joint.plates)
     for (const auto& waves : plate.contact_waves) {
       const Index i = std::ssize(contacts);
-      contacts.push_back(contact_load(*equations.rims[i], *waves, equations.of_rim(step.c, i)));
+      const RimProblem& rim = *equations.rims[i];
+      const VectorXd c = equations.of_rim(step.c, i);
+      const bool has_errors = plate.stress_level && !plate.peaks_alone;
+      contacts.push_back(has_errors ? contact_load(rim, *waves, c) : contact_load(rim, rim.solve(c).w));
     }
   state.plates = plate_loads(joint, system, contacts, D, load, step.Lambda);
   state.transferred_first = transferred(equations, step.F, 0);

@@ -141,7 +141,7 @@ ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
 
 ContactLoad contact_load(const RimProblem& rim, const ContactWaves& waves, const VectorXd& c) {
   ContactLoad load = contact_load(rim, rim.solve(c).w);
-  const int order = load.all.shape.highest, fewer = std::max(waves.carried_order(), order / 2);
+  const int order = load.all.shape.highest, fewer = std::max({waves.carried_order(), order / 2, 2});
   if (fewer >= order) return load;
   const RimProblem by_fewer(waves.up_to(fewer), rim.area(), rim.k(), rim.contact().gap(), rim.contact().mu());
   if (const RimSolution& its = by_fewer.solve(c); its.converged)

@@ -60,7 +60,7 @@ struct ContactLoad {
   /// The tractions as functions of the angle, from the waves of the displacement up to the order of `shape`.
   struct Contour {
     rim::Harmonics shape;
-    VectorXd w;                ///< without the compliance of an elastic disk, length
+    VectorXd w;                ///< without the compliance of the disk or the springs, length
     double mu;                 ///< shear over pressure; less than that of the fastener if the rim sticks
     double modulus;            ///< pressure per unit of overlap of the rims, force / length^3
     double direction;          ///< of the resultant of the pressure on the sheet, radians

@@ -83,8 +83,7 @@ struct DiscState {
 /// The disc of a plate under contact coordinates c of the first waves.
 DiscState state_of(const PlateModel& plate, double gap, double mu, const Eigen::Vector2d& u) {
   const Index k = plate.n_unknowns() - 2;
-  constexpr double stiffness =
-      1e4;  // little, so that the springs which keep a disk from overlapping are always the same
+  constexpr double stiffness = 1e4;  // little, so that the springs between the rims are always the same
   const RimProblem rim(plate.contact_waves[0]->up_to(plate.contact[0].pressures.highest), area, stiffness, gap, mu);
   // The rim's force f and the plate's on the moments, S (u, m) + R tau, add up to nothing: Newton's method for c.
   VectorXd c = VectorXd::Zero(k);
@@ -184,6 +183,19 @@ TEST(ContactWaves, OfAnOrderLeaveAnErrorOfItsInverseSquare) {
   }
   EXPECT_LT(worst, 2e-4);
   EXPECT_LT(fine, coarse / 3.5);
+}
+
+TEST(ContactWaves, OfOrderOneAloneHaveACompliance) {
+  for (const double sweep : {rim::full_turn, rim::full_turn / 2, rim::full_turn / 4})
+    for (const int highest_order : {1, 2, 3}) {
+      const rim::Harmonics all{highest_order, 0, sweep}, one{1, 0, sweep};
+      const ContactWaves waves({"1", all, 1e4, rim_radius, area, {70e3, 0.3}},
+                               {"1", one, rim_radius, area, 1e4, laminate()});
+      const RimProblem rim(waves.up_to(highest_order), area, 1e6, 0, 0);
+      VectorXd c = VectorXd::Zero(one.size());
+      c[0] = 100;
+      EXPECT_TRUE(rim.solve(c).forces.allFinite() && rim.solve(c).forces[0] > 0) << highest_order << " " << sweep;
+    }
 }
 
 TEST(ContactWaves, AreMoreTheNarrowerTheArc) {
