@@ -146,20 +146,25 @@ MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   return A;
 }
 
-/// Raises the compliance of pressures whose waves are too short for the sheet's degree to a small minimum.
+/// Raises the compliance of pressures whose waves are too short for the sheet's degree to a small minimum, of each rim,
+/// then if necessary of all together.
 void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
   constexpr double min_ratio = 1e-3;  // to the largest eigenvalue of the rim
-  Index row = 0;
-  for (Index i = 0; i < std::ssize(a.contact); ++i) {
-    const Index k = a.waves[i].waves.size();
+  const auto soften = [&](Index row, Index k) {
     const auto eigen = matrices::symmetric_eigen(compliance.block(row, row, k, k));
     const double min_value = min_ratio * eigen.values[k - 1];
     const auto n = (eigen.values.array() < min_value).count();
     const auto unresolved = eigen.vectors.leftCols(n);
     const VectorXd lift = min_value - eigen.values.head(n).array().min(0);
     compliance.block(row, row, k, k) += unresolved * lift.asDiagonal() * unresolved.transpose();
+  };
+  Index row = 0;
+  for (Index i = 0; i < std::ssize(a.contact); ++i) {
+    const Index k = a.waves[i].waves.size();
+    soften(row, k);
     row += k;
   }
+  if (!matrices::is_positive_definite(compliance)) soften(0, compliance.rows());
 }
 
 /// Fixes the short waves of the rims of a plate at zero: replaces its moments d by those of ShortWaves, delta = d +

@@ -39,7 +39,8 @@ class PeakSearch {
     const Curve hoop = curve(0, rim_.rim.waves, tractions);
     const auto peak = top(hoop, rim_.kinks);
     if (!peak) return std::nullopt;
-    const Index n = hoop.angles.size(), nearest = std::lround(peak->angle / rim::full_turn * double(n)) % n;
+    const Index n = hoop.angles.size(),
+                nearest = static_cast<Index>(std::floor(peak->angle / rim::full_turn * double(n))) % n;
     VectorXd at_points =
         VectorXd::NullaryExpr(n, [&](Index i) { return is_allowed(hoop.angles[i]) ? hoop.values[i] : std::nan(""); });
     at_points[(nearest + n) % n] = peak->value;

@@ -98,7 +98,8 @@ struct CheckedHole {
     const Applied larger = along(of(all, "rim/bypass_stress", step), direction),
                   other = along(of(all, "rim/bypass_across", step), direction + turned);
     const auto left = [](const Applied& a) { return a.applied > 0 ? a.allowable / a.applied : infinite; };
-    return left(other) < left(larger) ? other : larger;
+    constexpr double equal = 1 - 1e-9;  // so that rounding does not choose between them
+    return left(other) < equal * left(larger) ? other : larger;
   }
   [[nodiscard]] Applied tension(const JointColumns& all, Index step) const {
     const double value = check->allowable.at(infinite);

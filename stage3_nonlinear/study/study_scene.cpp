@@ -193,8 +193,6 @@ void read_limits(const Value& limits, const Value& joint, StudyScene& study) {
     const auto at = std::size_t(index_of(allowed, name));
     if (at == allowed.size()) limit.fail("unknown key", fmt::format("{}", fmt::join(allowed, ", ")));
     const bool is_margin = at >= asked.size();
-    if (!is_margin && std::ranges::count(allowed, name) > 1)
-      limit.fail("the name of a quantity and of a check", "another \"name\" of the check in the joint");
     if (is_margin)
       study.least_margins[name] = limit.number(input::not_negative);
     else if (limit.is_object() && name == "force")

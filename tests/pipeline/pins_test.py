@@ -138,6 +138,20 @@ def friction_against_slip(folder):
     assert solve(0)["bar"][0] == np.inf, ("one wave tells nothing about further ones", solve(0))
 
 
+def rigid_pins_in_strips(folder):
+    """Rigid pins near the ends of strips under uniform tension at 1.5 W, e = W, nu = 0.3, half a strip: half-angle of contact, pressure and
+    hoop stress over P / (d t) by an independent code."""
+    for width, half_angle, pressure, hoop in ((2, 89.280, 1.10548, 2.21604), (6, 84.378, 1.14548, 1.20590)):  # over the diameter
+        W = 2 * width
+        matrices(folder, plate({"E": 70e3, "nu": 0.3}, [-W, -W / 2, W / 2, 1.5 * W], [0, W / 2],
+                               {"spring": {"compression_only": True, "disk": {"E": 70e6, "nu": 0.3, "law": "elastic"}}},
+                               supports=[{"on": "bottom", "fix": ["y"]}], external=[{"id": "P", "on": "right", "direction": "x", "kind": "traction"}]))
+        found = state(folder, [{"id": "pin", "between": ["sheet:h", "ground"], "law": "law"}], [{"external": "sheet:P", "force": 500}])
+        near(f"rigid pin, W/d = {width}: hoop stress", found["hoop"][0], 500 * hoop, 1.5e-3, found["bar"][0])
+        near("  peak pressure", found["pressure"][0], 500 * pressure, 1.5e-3)
+        near("  half-angle of contact, degrees", 2 * found["half-angle"][0], half_angle, 0.15, absolute=True)
+
+
 def pressed_in_disk(folder):
     """An elastic disk with an interference that keeps it in full contact in a sheet under tension, in closed form: Airy's functions of
     orders 0 and 2, as (30) and (31) of the paper have them, with the disk's own compliance in the place of the springs'."""
@@ -157,7 +171,7 @@ def pressed_in_disk(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (elastic_pins, stiff_springs, elastic_pins_with_friction, friction_against_slip, pressed_in_disk, isotropic_pins, plane_strain_pin,
-                  laminate_pins):
+    for check in (rigid_pins_in_strips, elastic_pins, stiff_springs, elastic_pins_with_friction, friction_against_slip, pressed_in_disk,
+                  isotropic_pins, plane_strain_pin, laminate_pins):
         check(Path(name))
 end_if_missed()
