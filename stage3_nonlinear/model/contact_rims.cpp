@@ -159,10 +159,10 @@ ShortWaves waves_up_to(int order, const formats::ContactRim& contact, const form
 
 }  // namespace
 
-ContactWaves::ContactWaves(const formats::ContactRim& contact, const formats::WaveRim& carried)
+ContactWaves::ContactWaves(const formats::ContactRim& contact, const formats::WaveRim& carried, bool moves)
     : contact_(contact), carried_(carried) {
   auto fewest = waves_up_to(fewest_order(contact, carried), contact, carried);
-  fewest.moved = lacking(fewest);
+  fewest.moved = moves ? lacking(fewest) : VectorXd::Zero(fewest.n_long);
   fewest.M.diagonal().head(fewest.n_long) += fewest.moved;
   fewest_ = std::make_shared<const ShortWaves>(std::move(fewest));
 }
@@ -202,12 +202,12 @@ std::shared_ptr<const ShortWaves> ContactWaves::up_to(int order) const {
   return kept = std::make_shared<const ShortWaves>(std::move(more));
 }
 
-std::vector<std::shared_ptr<const ContactWaves>> contact_waves_of(const formats::PlateMatrices& a) {
+std::vector<std::shared_ptr<const ContactWaves>> contact_waves_of(const formats::PlateMatrices& a, bool moves) {
   std::vector<std::shared_ptr<const ContactWaves>> result;
   for (Index i = 0; i < std::ssize(a.contact); ++i) {
     const auto like =
         std::ranges::find_if(result, [&](const auto& its) { return its->is_of(a.contact[i], a.waves[i]); });
-    auto waves = like != result.end() ? *like : std::make_shared<const ContactWaves>(a.contact[i], a.waves[i]);
+    auto waves = like != result.end() ? *like : std::make_shared<const ContactWaves>(a.contact[i], a.waves[i], moves);
     result.push_back(std::move(waves));
   }
   return result;

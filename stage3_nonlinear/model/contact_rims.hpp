@@ -54,7 +54,8 @@ struct ShortWaves {
 /// The waves of a rim up to as many as a joint asks for.
 class ContactWaves {
  public:
-  ContactWaves(const formats::ContactRim& contact, const formats::WaveRim& carried);
+  /// @param moves False in a sheet that has no compliance to spare: the springs between the rims are stiffer then.
+  ContactWaves(const formats::ContactRim& contact, const formats::WaveRim& carried, bool moves = true);
 
   /// True if another rim has the same waves.
   [[nodiscard]] bool is_of(const formats::ContactRim& contact, const formats::WaveRim& carried) const;
@@ -80,7 +81,8 @@ class ContactWaves {
 };
 
 /// The waves of all rims of contact of a plate; equal rims have one object in common.
-[[nodiscard]] std::vector<std::shared_ptr<const ContactWaves>> contact_waves_of(const formats::PlateMatrices& a);
+[[nodiscard]] std::vector<std::shared_ptr<const ContactWaves>> contact_waves_of(const formats::PlateMatrices& a,
+                                                                                bool moves = true);
 
 /// Rows and columns of a plate's matrices for the waves of its rims of contact in the elements: with F the pressure
 /// waves in excess of the springs' pressure (stress times area), tau the shear waves (stress), and d the means of the

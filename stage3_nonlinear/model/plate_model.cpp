@@ -146,25 +146,45 @@ MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   return A;
 }
 
-/// Raises the compliance of pressures whose waves are too short for the sheet's degree to a small minimum, of each rim,
-/// then if necessary of all together.
+/// Raises the compliance of pressures whose waves are too short for the sheet's degree to a small minimum.
 void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
   constexpr double min_ratio = 1e-3;  // to the largest eigenvalue of the rim
-  const auto soften = [&](Index row, Index k) {
+  Index row = 0;
+  for (Index i = 0; i < std::ssize(a.contact); ++i) {
+    const Index k = a.waves[i].waves.size();
     const auto eigen = matrices::symmetric_eigen(compliance.block(row, row, k, k));
     const double min_value = min_ratio * eigen.values[k - 1];
     const auto n = (eigen.values.array() < min_value).count();
     const auto unresolved = eigen.vectors.leftCols(n);
-    const VectorXd lift = min_value - eigen.values.head(n).array().min(0);
-    compliance.block(row, row, k, k) += unresolved * lift.asDiagonal() * unresolved.transpose();
-  };
-  Index row = 0;
-  for (Index i = 0; i < std::ssize(a.contact); ++i) {
-    const Index k = a.waves[i].waves.size();
-    soften(row, k);
+    compliance.block(row, row, k, k) += min_value * unresolved * unresolved.transpose();
     row += k;
   }
-  if (!matrices::is_positive_definite(compliance)) soften(0, compliance.rows());
+}
+
+/// What ContactWaves take from the compliance of a plate, of all rims, with the springs of its rims, (k), length /
+/// force.
+VectorXd moved_of(const formats::PlateMatrices& a,
+                  const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves) {
+  std::vector<double> moved;
+  for (Index i = 0; i < std::ssize(a.contact); ++i)
+    for (const double its : contact_waves[i]->fewest().moved)
+      moved.push_back(its / (1 + a.contact[i].modulus * its) / a.contact[i].area);
+  return Eigen::Map<const VectorXd>(moved.data(), std::ssize(moved));
+}
+
+/// The waves of the rims of a plate, which take as much of its compliance as it has to spare at all degrees in use.
+std::vector<std::shared_ptr<const ContactWaves>> waves_of_rims(const formats::PlateMatrices& a, Index first,
+                                                               Index level) {
+  auto waves = contact_waves_of(a);
+  const VectorXd moved = moved_of(a, waves);
+  if (moved.isZero(0)) return waves;
+  constexpr double spare = 1.5;
+  for (Index i = first; i <= level; ++i) {
+    MatrixXd compliance = rim_matrices(a, i).C;
+    compliance.diagonal() -= spare * moved;
+    if (!matrices::is_positive_definite(compliance)) return contact_waves_of(a, false);
+  }
+  return waves;
 }
 
 /// Fixes the short waves of the rims of a plate at zero: replaces its moments d by those of ShortWaves, delta = d +
@@ -215,20 +235,19 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   if (a.contact.empty()) return;
   const RimMatrices rims = rim_matrices(a, level);
   const Index k = rims.C.rows();
-  VectorXd springs(k), scale(k), moved(k);
+  VectorXd springs(k), scale(k);
   Index row = 0;
   for (Index i = 0; i < std::ssize(a.contact); ++i) {
     const Index n_long = a.waves[i].waves.size();
     const double K = a.contact[i].modulus, area = a.contact[i].area;
     const VectorXd& its = contact_waves[i]->fewest().moved;
     scale.segment(row, n_long) = (1 + K * its.array()).inverse();
-    moved.segment(row, n_long) = scale.segment(row, n_long).cwiseProduct(its) / area;
     springs.segment(row, n_long) = K * area * scale.segment(row, n_long);
     row += n_long;
   }
   const MatrixXd& B = rims.B;
   MatrixXd compliance = rims.C;
-  compliance.diagonal() -= moved;
+  compliance.diagonal() -= moved_of(a, contact_waves);
   auto inverse = matrices::inverse_of_positive(compliance);
   constexpr double max_ratio = 1e6;  // to the stiffness of the springs
   if (!inverse || !((inverse->diagonal().array() / springs.array()).maxCoeff() < max_ratio)) {
@@ -280,10 +299,12 @@ void add_fixed_discs(const PlateModel& plate, PlateDegrees& degrees) {
     }
 }
 
+/// The lowest of the degrees that are used besides one: no error estimate needs more than four.
+Index first_degree(Index level) { return std::max<Index>(level - 3, 0); }
+
 PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level,
                            const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves) {
-  constexpr Index max_degrees = 4;  // no error estimate needs more
-  const Index n = std::min(level + 1, max_degrees), first = level + 1 - n;
+  const Index first = first_degree(level), n = level + 1 - first;
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
   for (Index i = first; i <= level; ++i) {
     degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
@@ -343,7 +364,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   check_contact(file, a, plate);
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
-  plate.contact_waves = contact_waves_of(a);
+  plate.contact_waves = waves_of_rims(a, first_degree(level), level);
   plate.degrees = degrees_up_to(file, a, level, plate.contact_waves);
   add_fixed_discs(plate, plate.degrees);
   plate.S = plate.degrees.S.back();
