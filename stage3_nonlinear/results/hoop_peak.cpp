@@ -136,7 +136,7 @@ class PeakSearch {
                              const std::shared_ptr<const TractionWaves>& tractions) const {
     const rim::Harmonics& all = rim_.rim.waves;
     // One wave tells nothing about further ones.
-    if (rim_.degrees.size() < 2 || all.highest < 2 || (rim_.in_contact && !std::isfinite(rim_.beyond)))
+    if (rim_.degrees.size() < 2 || all.highest < 2 || !std::isfinite(rim_.beyond))
       return std::numeric_limits<double>::infinity();
     const Curve lower = curve(1, all, rim_.in_contact ? tractions : rim_.traction_waves(rim_.degrees[1].tractions));
     const double by_degree = largest(lower.values - hoop.values, hoop, peak.angle);
@@ -154,7 +154,7 @@ class PeakSearch {
     if (rim_.in_contact)
       if (const auto other = top(curve(0, all, rim_.traction_waves(rim_.by_fewer)), rim_.kinks_by_fewer))
         by_waves = std::abs(other->value - peak.value);
-    return 2 * by_degree + changed[0] * fall / (1 - fall) + (rim_.in_contact ? rim_.beyond * by_waves : 0);
+    return 2 * by_degree + changed[0] * fall / (1 - fall) + rim_.beyond * by_waves;
   }
 
   /// Change of the hoop stress at the points if orders first..end-1 followed from the tractions.

@@ -55,8 +55,7 @@ Eigen::Matrix2Xd imaginary_sums(const Eigen::Matrix2Xcd& waves, Index first) {
   Eigen::FFT<double> fft;
   const Index n = 2 * waves.cols();
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n), F;
-  // As f_m e^(-i m angle) has the imaginary part of its conjugate with the sign reversed, one transform of complex
-  // numbers adds up both rows.
+  // One transform of complex numbers adds up both rows: a number less its conjugate is twice its imaginary part.
   for (Index m = std::max<Index>(first, 1); m < n / 2; ++m) {
     const Complex x = waves(0, m) * std::conj(turns()[m]), y = waves(1, m) * std::conj(turns()[m]);
     f[m] = (x + 1i * y) / 2.0;
@@ -190,8 +189,12 @@ double HoopStress::at(double angle) const {
               traction);
 }
 
-Eigen::VectorXd HoopStress::of_slopes(const Eigen::Matrix2Xcd& slopes, int first) const {
+Eigen::VectorXd HoopStress::change_by_tractions(int first, int end) const {
   const Eigen::Matrix2Xd& normal = normals();
+  Eigen::Matrix2Xcd slopes(2, end - first);  // change of (du_x/dtheta, du_y/dtheta) over the radius
+  for (int m = first; m < end; ++m)
+    slopes.col(m - first) =
+        sheet_.slope() * tractions_->waves().col(m) + double(m) * 1.0i * u_.col(m) / sheet_.radius();
   return Eigen::VectorXd::NullaryExpr(normal.cols(), [&](Index i) {
     const Complex turn(normal(0, i), -normal(1, i));
     Complex at = std::pow(turn, first);
@@ -199,14 +202,6 @@ Eigen::VectorXd HoopStress::of_slopes(const Eigen::Matrix2Xcd& slopes, int first
     for (Index k = 0; k < slopes.cols(); ++k, at *= turn) sum += (slopes.col(k) * at).real();
     return 2 * (normal(0, i) * sum.y() - normal(1, i) * sum.x()) / sheet_.along(angles_[i])[1];
   });
-}
-
-Eigen::VectorXd HoopStress::change_by_tractions(int first, int end) const {
-  Eigen::Matrix2Xcd slopes(2, end - first);
-  for (int m = first; m < end; ++m)
-    slopes.col(m - first) =
-        sheet_.slope() * tractions_->waves().col(m) + double(m) * 1.0i * u_.col(m) / sheet_.radius();
-  return of_slopes(slopes, first);
 }
 
 }  // namespace fastjoint::stage3

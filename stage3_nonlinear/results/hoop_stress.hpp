@@ -75,8 +75,6 @@ class HoopStress {
   /// @param imaginary Imaginary part of the sum over m >= first_short of (X_m, Y_m) e^(-i m angle).
   [[nodiscard]] double strain(const Eigen::Vector2d& normal, const Eigen::Vector2d& imaginary,
                               const Eigen::Vector2d& traction) const;
-  /// Hoop stress at the points of waves first.. of (du_x/dtheta, du_y/dtheta) over the radius, without tractions.
-  [[nodiscard]] Eigen::VectorXd of_slopes(const Eigen::Matrix2Xcd& slopes, int first) const;
 
   rim::RimCompliance sheet_;
   std::shared_ptr<const TractionWaves> tractions_;

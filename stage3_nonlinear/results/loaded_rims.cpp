@@ -217,6 +217,7 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
         loaded->all = all.shape;
         loaded->slip = slip_of(contacts[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
       }
+      loaded->beyond = infinite;
       if (fewer) {
         const double rate = plate.contact_waves[i]->is_stiff() && all.mu > 0 ? 0.5 : 1.5;
         loaded->beyond = 1 / (std::pow(double(all.shape.highest) / fewer->shape.highest, rate) - 1);

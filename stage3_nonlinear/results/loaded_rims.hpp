@@ -31,7 +31,7 @@ struct LoadedRim {
   /// Estimated change of the peak by all further waves over that from the fewer waves. It falls as N^-3/2 or faster;
   /// with friction on an elastic disk the stress is like a square root at the end of contact, and it falls as N^-1/2.
   /// Infinite if there are no fewer waves.
-  double beyond = infinite;
+  double beyond = 0;
   VectorXd slip{};        ///< all waves of the tangential displacement of the disc relative to the sheet, length; none
                           ///< without friction and of a rim that sticks
   rim::Harmonics all{1};  ///< its shears are the waves of `slip`

@@ -383,9 +383,8 @@ void read_again(const input::Document& document, const std::set<std::vector<std:
     if (list == "laws") {
       scene.laws.at(item[1]).law = read_law(root.at("laws").at(item[1].c_str()));
     } else if (list == "fasteners") {
-      const std::size_t at = std::stoul(item[1]);
       if (fasteners.empty()) fasteners = root.at("fasteners").items();
-      scene.fasteners[at] = read_fastener(fasteners[at], scene);
+      scene.fasteners[std::stoul(item[1])] = read_fastener(fasteners[std::stoul(item[1])], scene);
     } else {
       const std::size_t of_case = list == "cases" ? std::stoul(item[1]) : 0, at = std::stoul(item.back());
       const Value its = list == "cases" ? root.at("cases").items()[of_case] : root;
