@@ -183,8 +183,10 @@ int ContactWaves::order(double gap, double mu, double force) const {
   // Half the arc on which two half-planes of the rims' compliance touch (Hertz), at most that of a disc without a gap.
   double half_arc = std::numbers::pi / 2;
   if (gap > 0 && force > 0) half_arc = std::min(half_arc, 2 * std::sqrt(force * fewest_->fall / (contact_.area * gap)));
-  const double per_arc = mu > 0 && is_stiff() ? 75 : 20;  // waves to half the arc for the aims of section 6.8
-  const double needed = std::min(per_arc / half_arc, double(highest_order));
+  constexpr double per_arc = 20, with_friction = 75, most_by_friction = 64;  // for the aims of section 6.8
+  double needed = per_arc / half_arc;
+  if (mu > 0 && is_stiff()) needed = std::max(needed, std::min(with_friction / half_arc, most_by_friction));
+  needed = std::min(needed, double(highest_order));
   return std::max(fewest_->pressures.highest, static_cast<int>(std::ceil(needed / 4)) * 4);
 }
 

@@ -75,6 +75,8 @@ def compare_margins(guise, original, answers):
         return
     checks, other_checks = original.result["margin/check"], answers.result["margin/check"]
     for check in sorted(set(checks)):
+        if check == "peak" and guise.sign < 0:
+            continue  # where the loads pulled they push now, and another spot has the peak
         x, y = (np.sort(values[np.array([each == check for each in names])]) for values, names in ((mine, checks), (others, other_checks)))
         if len(x) != len(y):
             raise Fall(f"{guise.name}: {len(x)} margins of {check} and {len(y)}")
