@@ -2,9 +2,8 @@
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
-
-#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -37,25 +36,44 @@ std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vec
   return {loads, given};
 }
 
-/// H = D_delta^T G from the columns of every plate's R that are in use.
-MatrixXd friction_matrix(const JointModel& joint, const std::vector<FrictionColumn>& columns, const MatrixXd& D_delta) {
-  MatrixXd H(D_delta.cols(), std::ssize(columns));
-  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    const PlateModel& plate = joint.plates[i];
-    const auto D = D_delta.middleRows(joint.offset(i), plate.n_unknowns());
-    std::vector<Index> of_H, of_R;
-    for (Index at = 0; at < std::ssize(columns); ++at) {
-      if (columns[at].plate != i) continue;
-      if (columns[at].case_at < 0) {
-        H.col(at) = D.row(columns[at].disc).transpose();
-      } else {
-        of_H.push_back(at);
-        of_R.push_back(columns[at].case_at);
-      }
+/// Forces on all unknowns per unit of each amplitude of friction, (N, t).
+MatrixXd unit_friction(const JointModel& joint, const std::vector<FrictionColumn>& columns) {
+  MatrixXd G = MatrixXd::Zero(joint.n_unknowns(), std::ssize(columns));
+  for (Index at = 0; at < std::ssize(columns); ++at) {
+    const auto& [plate, case_at, disc] = columns[at];
+    const Index first = joint.offset(plate);
+    if (case_at < 0) {
+      G(first + disc, at) = 1;
+    } else {
+      G.col(at).segment(first, joint.plates[plate].n_unknowns()) = joint.plates[plate].R.col(case_at);
     }
-    if (!of_H.empty()) H(Eigen::all, of_H) = D.transpose() * MatrixXd(plate.R(Eigen::all, of_R));
   }
-  return H;
+  return G;
+}
+
+/// D_delta^T f, (r, columns), of forces on all unknowns.
+MatrixXd on_planes(const CondensedSystem& system, const MatrixXd& f) {
+  MatrixXd result = system.rigid.Y().transpose() * f;
+  result.noalias() -= system.half.transpose() * system.rigid.half_solve(f);
+  return result;
+}
+
+/// Number of waves of a rim, from row `first` of S on, up to the last that is coupled to rows outside the rim. The
+/// measure is the square of an entry over both diagonal entries, which is dimensionless.
+Index n_long(const MatrixXd& S, const VectorXd& diagonal, Index first, Index size) {
+  constexpr double max_coupling = 1e-2;
+  Index n = size;
+  const auto coupling = [&](Index row) {
+    const auto outside = [&](Index begin, Index count) {
+      return count == 0 ? 0
+                        : (S.col(row).segment(begin, count).array().square() / diagonal.segment(begin, count).array())
+                              .maxCoeff();
+    };
+    const Index end = first + size;
+    return std::max(outside(0, first), outside(end, S.rows() - end)) / diagonal[row];
+  };
+  while (n > 0 && coupling(first + n - 1) <= max_coupling) --n;
+  return n;
 }
 
 /// Stiffness of the softer plate of each plane at its discs, (n).
@@ -100,15 +118,38 @@ void set_reference(CondensedSystem& system, const VectorXd& own) {
     const double row = rows.segment(j * a, a).maxCoeff();
     system.stiffness[j] = row > negligible * largest ? row : largest;
   }
-  MatrixXd W = -0.5 * (S + S.transpose());
-  for (Index i = 0; i < n * a; ++i) W(i, i) += system.stiffness[i / a];
+  system.K.resize(S.rows());
+  for (Index i = 0; i < n * a; ++i) system.K[i] = system.stiffness[i / a];
   Index first = n * a;
+  const VectorXd diagonal = S.diagonal().cwiseMax(std::numeric_limits<double>::min());
   for (Index rim = 0; rim < std::ssize(rims); ++rim) {
     system.stiffness[n + rim] = rows.segment(first, rims[rim]).maxCoeff();
-    W.diagonal().segment(first, rims[rim]).array() += system.stiffness[n + rim];
+    system.K.segment(first, rims[rim]).setConstant(system.stiffness[n + rim]);
+    system.long_waves.push_back(n_long(S, diagonal, first, rims[rim]));
     first += rims[rim];
   }
-  system.metric = matrices::inverse_of_positive(std::move(W)).value();
+}
+
+MatrixXd CondensedSystem::displaced(const MatrixXd& delta) const {
+  return rigid.Y() * delta - rigid.restore(half * delta);
+}
+
+VectorXd CondensedSystem::metric_times(const VectorXd& f) const {
+  constexpr double tolerance = 1e-13;
+  const auto times_W = [&](const VectorXd& x) -> VectorXd { return K.cwiseProduct(x) - S_ud * x; };
+  VectorXd x = f.cwiseQuotient(K), residual = f - times_W(x), direction = residual.cwiseQuotient(K);
+  double size = residual.dot(direction);
+  const double enough = tolerance * tolerance * x.dot(f);
+  for (Index i = 0; i < 10 * f.size() && size > enough; ++i) {
+    const VectorXd by = times_W(direction);
+    const double length = size / direction.dot(by);
+    x += length * direction;
+    residual -= length * by;
+    const VectorXd next = residual.cwiseQuotient(K);
+    const double before = std::exchange(size, residual.dot(next));
+    direction = next + size / before * direction;
+  }
+  return x;
 }
 
 CondensedSystem condense(const JointModel& joint, const Held& held) {
@@ -117,14 +158,13 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.rigid = RigidJoint(joint, held, S);
   const auto& Y = system.rigid.Y();
   const MatrixXd SY = S * Y;
-  const MatrixXd half = system.rigid.half_solve(SY);
-  system.D_delta = MatrixXd(Y) - system.rigid.restore(half);
+  system.half = system.rigid.half_solve(SY);
   system.S_ud = Y.transpose() * SY;
-  system.S_ud.noalias() -= half.transpose() * half;
+  system.S_ud.noalias() -= system.half.transpose() * system.half;
   system.held = held;
   system.load_columns = load_columns(joint, held);
   const auto [loads, given] = unit_loads(joint, system.load_columns);
-  system.Q = system.D_delta.transpose() * loads;
+  system.Q = on_planes(system, loads);
   system.Q_scale.resize(loads.cols());
   for (Index i = 0; i < loads.cols(); ++i) {
     const VectorXd forces = loads.col(i).cwiseAbs();
@@ -133,7 +173,7 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   }
   system.D_load = given + system.rigid.moved(loads);
   system.friction = friction_layout(joint);
-  system.H = friction_matrix(joint, system.friction.columns, system.D_delta);
+  system.H = on_planes(system, unit_friction(joint, system.friction.columns));
   system.rim_sizes = joint.rim_sizes();
   set_reference(system, own_stiffness(joint));
   return system;

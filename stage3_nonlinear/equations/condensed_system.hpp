@@ -29,25 +29,30 @@ struct CondensedSystem {
   std::vector<LoadColumn> load_columns = {};    ///< (l)
   Held held = {};
   FrictionLayout friction = {};  ///< (t)
-  // Displacements of the joint's N unknowns, given ones included.
-  MatrixXd D_load = {};   ///< (N, l) per unit of each load column at delta = 0
-  MatrixXd D_delta = {};  ///< (N, r) per relative displacement, dimensionless
+  /// (N, l) displacements of the joint's N unknowns, given ones included, per unit of each load column at delta = 0.
+  MatrixXd D_load = {};
   RigidJoint rigid = {};
+  MatrixXd half = {};  ///< (z, r) L^-1 Z^T S Y of `rigid`
   /// Reference stiffness k of each plane, then of each rim of contact, force / length: slightly above the sum of the
   /// absolute values in its rows of S_ud, so that W = K - S_ud is positive definite (docs/theory.md, section 8.2). If
   /// S_ud of a plane is only rounding, k is the plate's own stiffness.
   VectorXd stiffness = {};
-  MatrixXd metric = {};  ///< (r, r) inverse of W, length / force
+  VectorXd K = {};                     ///< (r) the same of each row
+  std::vector<Index> long_waves = {};  ///< of each rim of contact, those that TangentFactor does not eliminate alone
 
   /// r - n a
   [[nodiscard]] Index n_moments() const { return std::accumulate(rim_sizes.begin(), rim_sizes.end(), Index{0}); }
+  /// Displacements of all unknowns by relative displacements alone, D_delta delta, (N, columns).
+  [[nodiscard]] MatrixXd displaced(const MatrixXd& delta) const;
+  /// W^-1 f, (r), by conjugate gradients: the eigenvalues of K^-1 W are between 1/20 and 1.
+  [[nodiscard]] VectorXd metric_times(const VectorXd& f) const;
 };
 
 /// Forces q with rounding errors of a load that does not reach a fastener set to zero, since forces are solved relative
 /// to the largest.
 [[nodiscard]] VectorXd without_rounding(const VectorXd& q, double largest_load);
 
-/// Sets stiffness and metric.
+/// Sets stiffness, K and long_waves.
 /// @param own Stiffness of the plates at each plane, (n).
 void set_reference(CondensedSystem& system, const VectorXd& own);
 

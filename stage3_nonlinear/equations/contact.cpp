@@ -34,6 +34,11 @@ double ContactState::along(MatrixXd Response::*slopes, Index plane) const {
   return direction.col(plane).dot((part.*slopes).block(at, at, a, a) * direction.col(plane));
 }
 
+void ContactState::leave_out_friction() {
+  Lambda.resize(0);
+  for (PlacedResponse& part : parts) part.dLambda.resize(0, part.F.size());
+}
+
 MatrixXd ContactState::times(const MatrixXd& A, MatrixXd Response::*slopes) const {
   MatrixXd result(A.rows(), A.cols());
   for (const PlacedResponse& part : parts) {
@@ -61,7 +66,7 @@ void ContactState::add(double factor, MatrixXd Response::*slopes, MatrixXd& A) c
 }
 
 MatrixXd ContactState::friction_by(const MatrixXd& dc) const {
-  MatrixXd result(Lambda.size(), dc.cols());
+  MatrixXd result = MatrixXd::Zero(Lambda.size(), dc.cols());
   for (const PlacedResponse& part : parts)
     if (const Index t = part.dLambda.rows(); t > 0)
       result.middleRows(part.friction, t).noalias() = part.dLambda * dc.middleRows(part.row, part.F.size());

@@ -39,6 +39,8 @@ struct ContactState {
   }
   /// Derivative dF / dc or d delta / dc of a plane along c.
   [[nodiscard]] double along(MatrixXd Response::*slopes, Index plane) const;
+  /// Sets Lambda and its derivatives to none.
+  void leave_out_friction();
   /// Product of A and the block diagonal matrix of derivatives, shape as A, (rows, r).
   [[nodiscard]] MatrixXd times(const MatrixXd& A, MatrixXd Response::*slopes) const;
   /// Product of that matrix and x, (r, columns).

@@ -7,14 +7,26 @@ namespace fastjoint::stage3 {
 
 LinearForces linear_forces(const JointEquations& equations, const VectorXd& flexibility, double load_factor) {
   constexpr int max_tries = 8;
-  MatrixXd A = equations.system->S_ud * flexibility.asDiagonal();
-  A.diagonal().array() += 1;
   const VectorXd rhs = equations.rigid_forces(load_factor);
-  LinearForces result{TangentFactor(A, equations.system->rim_sizes).solve(rhs), !equations.has_cosine_friction};
+  ContactState state = contact_state(equations, VectorXd::Zero(rhs.size()));
+  for (PlacedResponse& part : state.parts) {
+    const Index n = part.F.size();
+    part.dF.setIdentity(n, n);
+    part.ddelta = flexibility.segment(part.row, n).asDiagonal();
+    part.dLambda.resize(0, n);
+  }
+  LinearForces result{TangentFactor(*equations.system, state).step(rhs), !equations.has_cosine_friction};
   for (int i = 1; i < max_tries && !result.consistent; ++i) {
-    const MatrixXd friction = equations.friction_matrix(result.F);
-    result.F = TangentFactor(A + friction, equations.system->rim_sizes).solve(rhs);
-    result.consistent = equations.friction_matrix(result.F) == friction;
+    bool same = true;
+    for (std::size_t at = 0; at < state.parts.size(); ++at) {
+      PlacedResponse& part = state.parts[at];
+      MatrixXd by_force =
+          equations.interfaces[at].interface->friction_by_force(result.F.segment(part.row, part.F.size()));
+      same = same && by_force.rows() == part.dLambda.rows() && by_force == part.dLambda;
+      part.dLambda = std::move(by_force);
+    }
+    result.consistent = same;
+    if (!same) result.F = TangentFactor(*equations.system, state).step(rhs);
   }
   return result;
 }

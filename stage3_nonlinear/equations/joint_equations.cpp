@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -217,21 +216,6 @@ ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
   return contact_state(equations.interfaces, equations.history, equations.n_directions(), equations.n_planes(), c);
 }
 
-MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction) {
-  MatrixXd J = state.times(system.S_ud, &Response::ddelta);
-  state.add(1, &Response::dF, J);
-  for (const PlacedResponse& part : state.parts)
-    if (const Index t = part.dLambda.rows(); friction && t > 0)
-      J.middleCols(part.row, part.F.size()).noalias() += system.H.middleCols(part.friction, t) * part.dLambda;
-  return J;
-}
-
-MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
-  MatrixXd H = equations.system->metric;
-  state.add(-1, &Response::ddelta, H);
-  return H;
-}
-
 RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
                          const ContactState* frozen) {
   const CondensedSystem& system = *equations.system;
@@ -245,23 +229,17 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   problem.residual = [&equations, residual, scale](const VectorXd& x) {
     return residual(contact_state(equations, scale * x));
   };
-  const auto stiffened = [&equations, residual, scale](const VectorXd& x) {
+  const auto stiffened = [&equations, residual, scale, friction](const VectorXd& x) {
     auto state = contact_state(equations, scale * x);
     add_small_stiffness(equations, residual(state).cwiseAbs().maxCoeff(), state);
+    if (!friction) state.leave_out_friction();
     return state;
   };
-  problem.jacobian = [&system, stiffened, friction](const VectorXd& x) -> MatrixXd {
-    return tangent(system, stiffened(x), friction);
-  };
-  const bool convex = equations.rises && !friction;
-  if (convex) problem.gradient = [&system](const VectorXd& r) { return system.metric * r; };
-  problem.solve = [&equations, stiffened, friction, convex](const VectorXd& x, const VectorXd& r) -> VectorXd {
-    const ContactState state = stiffened(x);
-    if (convex && equations.rims.empty()) {
-      const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
-      if (factor.info() == Eigen::Success) return factor.solve(equations.system->metric * r);
-    }
-    return TangentFactor(tangent(*equations.system, state, friction), equations.system->rim_sizes).step(r);
+  problem.jacobian = [&system, stiffened](const VectorXd& x) { return tangent(system, stiffened(x)); };
+  if (equations.rises && !friction)
+    problem.metric = [&system](const VectorXd& step) { return system.metric_times(step); };
+  problem.solve = [&system, stiffened](const VectorXd& x, const VectorXd& r) -> VectorXd {
+    return TangentFactor(system, stiffened(x)).step(r);
   };
   return problem;
 }

@@ -99,16 +99,6 @@ struct JointEquations {
 /// @param c Contact coordinates, shape (r), force.
 [[nodiscard]] ContactState contact_state(const JointEquations& equations, const VectorXd& c);
 
-/// Derivative of the residual by c, shape (r, r), at the state of the contact coordinates c.
-///
-/// @param friction If false, the derivative of friction is left out.
-[[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
-
-/// Hessian of the convex function that the solution minimises, whose gradient is CondensedSystem::metric times the
-/// residual, symmetric, shape (r, r), length / force: W^-1 - d delta / dc. The tangent is W
-/// times it (docs/theory.md, section 8.4). Only for joints without a law that falls.
-[[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
-
 /// The equations at a load factor, with unknowns and residuals divided by `scale` (force).
 ///
 /// @param frozen If not null, friction is constant and that of this state.

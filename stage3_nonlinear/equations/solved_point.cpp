@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "common/matrices/decompositions.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
@@ -13,28 +11,6 @@ thread_local Index factorised = 0;
 
 /// Largest change of a force by a unit vector of the null space with which the force still has a derivative.
 constexpr double motion_of_force = 1e-6;
-
-/// Divides the columns of A whose largest entry exceeds 1 by it, and returns the divisors. Small columns stay: the
-/// tangent by contact coordinates is of order 1, and small columns are a lack of stiffness.
-VectorXd scale_columns(MatrixXd& A) {
-  VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
-  A.array().rowwise() /= scale.transpose().array();
-  return scale;
-}
-
-/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), if the tangent is W times a symmetric
-/// Hessian H, without friction, rims of contact and laws that fall, and H is certainly regular.
-std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
-  constexpr double surely_regular = 1e3 * singular_tangent;
-  if (!equations.rises || equations.has_friction || !equations.rims.empty()) return std::nullopt;
-  const MatrixXd H = hessian(equations, state);
-  const auto inverse = matrices::inverse_of_positive(H);
-  const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
-  if (!inverse || !(surely_regular * norm(H) * norm(*inverse) < 1)) return std::nullopt;
-  MatrixXd J = state.times(*inverse, &Response::ddelta);
-  J.diagonal().array() += 1;
-  return J;
-}
 
 /// Coordinates slightly beyond the corners for planes under load that may be on one. Only piecewise linear laws have
 /// corners other than that of their gap, at which the force is zero.
@@ -59,18 +35,14 @@ SolvedPoint::SolvedPoint(JointEquations equations, double load_factor, VectorXd 
       beyond_(contact_state(equations_, beyond_corners(equations_, state_, c_))) {
   factorise();
   if (equations_.has_friction && state_.F.isZero(0)) find_bearing_sides();
-  if (factor_) check_ = check_tangent(equations_, beyond_, *factor_, scale_);
+  check_ = check_tangent(equations_, beyond_, *factor_);
 }
 
 Index SolvedPoint::n_factorised() { return factorised; }
 
 void SolvedPoint::factorise() {
   ++factorised;
-  inverse_ = inverse_tangent(equations_, beyond_);
-  if (inverse_) return;
-  MatrixXd J = tangent(*equations_.system, beyond_);
-  scale_ = scale_columns(J);
-  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.system->rim_sizes);
+  factor_ = std::make_unique<TangentFactor>(*equations_.system, beyond_);
 }
 
 /// Replaces the forces at no load, under which no rim bears, by those of a small load, which determine the sides on
@@ -90,35 +62,36 @@ void SolvedPoint::find_bearing_sides() {
   }
 }
 
-/// If J is singular, slopes are found by least squares: columns with a remaining residual, and forces that change along
-/// the null space, have no derivative.
-Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
-  if (inverse_) {
-    const MatrixXd dc = residual ? *inverse_ * *residual : *inverse_;
-    return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
-  }
-  constexpr double max_residual = 1e-6;  // above the imbalance by the tolerance of the solver
-  const bool is_singular = !(factor_->rcond() > singular_tangent);
-  const VectorXd unscaled = scale_.cwiseInverse();
-  const auto forces_by_unknowns = [&](Index rows) -> MatrixXd {
-    return beyond_.times(MatrixXd::Identity(rows, c_.size()), &Response::dF) * unscaled.asDiagonal();
-  };
-  Slopes slopes;
-  if (residual) {
-    const MatrixXd x = is_singular ? factor_->solve_singular(*residual) : factor_->solve(*residual);
-    slopes.c = -(unscaled.asDiagonal() * x);
-    slopes.F = beyond_.product(&Response::dF, slopes.c);
-    const MatrixXd rest = is_singular ? MatrixXd(factor_->matrix() * x - *residual) : MatrixXd();
-    for (Index i = 0; i < rest.cols(); ++i)
-      if (rest.col(i).norm() > max_residual * residual->col(i).norm()) slopes.no_column.push_back(i);
-  } else {  // the transposed system has fewer right-hand sides: one for each force
-    const MatrixXd rhs = forces_by_unknowns(equations_.n_plane_rows()).transpose();
-    slopes.F = -(is_singular ? factor_->solve_singular_transposed(rhs) : factor_->solve_transposed(rhs)).transpose();
-  }
-  if (!is_singular) return slopes;
-  const MatrixXd F_free = forces_by_unknowns(slopes.F.rows()) * factor_->free_motions();
+MatrixXd SolvedPoint::forces_by_c(Index rows) const {
+  return beyond_.times(MatrixXd::Identity(rows, c_.size()), &Response::dF);
+}
+
+void SolvedPoint::find_rows_without_slope(Slopes& slopes) const {
+  const MatrixXd F_free = forces_by_c(slopes.F.rows()) * factor_->free_motions();
   for (Index i = 0; i < F_free.rows(); ++i)
     if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
+}
+
+/// If J is singular, slopes are found by least squares: columns with a remaining residual, and forces that change along
+/// the null space, have no derivative.
+Slopes SolvedPoint::slopes(const MatrixXd& residual) const {
+  constexpr double max_residual = 1e-6;  // above the imbalance by the tolerance of the solver
+  Slopes slopes;
+  slopes.c = -(factor_->is_singular() ? factor_->solve_singular(residual) : factor_->solve(residual));
+  slopes.F = beyond_.product(&Response::dF, slopes.c);
+  if (!factor_->is_singular()) return slopes;
+  const MatrixXd rest = factor_->times(slopes.c) + residual;
+  for (Index i = 0; i < rest.cols(); ++i)
+    if (rest.col(i).norm() > max_residual * residual.col(i).norm()) slopes.no_column.push_back(i);
+  find_rows_without_slope(slopes);
+  return slopes;
+}
+
+/// The transposed system has fewer right-hand sides than J: one for each force.
+Slopes SolvedPoint::estimated_slopes() const {
+  Slopes slopes;
+  slopes.F = -factor_->estimate_transposed(forces_by_c(equations_.n_plane_rows()).transpose()).transpose();
+  if (factor_->is_singular()) find_rows_without_slope(slopes);
   return slopes;
 }
 

@@ -12,7 +12,7 @@ namespace fastjoint::stage3 {
 
 /// Derivatives of the bearing forces as vectors, one column for each parameter (docs/theory.md, section 10).
 struct Slopes {
-  MatrixXd F;  ///< (r, columns); only the planes if no residual is given and the tangent was factorised
+  MatrixXd F;  ///< (r, columns)
   MatrixXd c;  ///< (r, columns) of the contact coordinates
   std::vector<Index> no_column, no_row;  ///< columns and rows of F that have no derivative
 };
@@ -35,9 +35,11 @@ class SolvedPoint {
   [[nodiscard]] const TangentCheck& check() const { return check_; }
 
   /// Slopes by the implicit function theorem: dF = F_c dc with J dc = -residual.
-  /// @param residual Derivative of the residual of the condensed system at fixed c, force, shape (r, columns). Without
-  ///                 it the identity is used, and slopes of moments and of c may be left out.
-  [[nodiscard]] Slopes slopes(const std::optional<MatrixXd>& residual = std::nullopt) const;
+  /// @param residual Derivative of the residual of the condensed system at fixed c, force, shape (r, columns).
+  [[nodiscard]] Slopes slopes(const MatrixXd& residual) const;
+  /// Slopes of the forces of the planes for the identity as that derivative, without those of c. In contact with rims
+  /// they are estimates, to about a hundredth.
+  [[nodiscard]] Slopes estimated_slopes() const;
   /// Slopes of the magnitudes of the forces, (n, columns); infinite where they do not exist.
   [[nodiscard]] MatrixXd of_magnitudes(const Slopes& slopes) const;
 
@@ -46,16 +48,17 @@ class SolvedPoint {
 
  private:
   void factorise();
+  /// Derivatives of the forces of the first rows by the contact coordinates, (rows, r).
+  [[nodiscard]] MatrixXd forces_by_c(Index rows) const;
+  /// Sets the rows of forces that have no derivative since they change along the null space of J.
+  void find_rows_without_slope(Slopes& slopes) const;
   void find_bearing_sides();
 
   JointEquations equations_;
   double load_factor_;
   VectorXd c_;
   ContactState state_, beyond_;
-  // The inverse of the tangent if its Hessian is certainly regular; else its factor.
-  std::optional<MatrixXd> inverse_;
   std::unique_ptr<TangentFactor> factor_;
-  VectorXd scale_;  ///< divisors of its columns
   TangentCheck check_;
 };
 

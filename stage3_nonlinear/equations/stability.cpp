@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -16,13 +17,10 @@ namespace {
 /// The motion without stiffness, and the planes that move by more than a small fraction of its norm: those that are
 /// open, and those that bear on a horizontal piece of their law. A law that rises again after a horizontal piece, as
 /// after a slip, is no limit.
-/// @param J With columns divided by `scale`.
-Mechanism mechanism(const JointEquations& equations, const ContactState& state, const TangentFactor& J,
-                    const VectorXd& scale) {
+Mechanism mechanism(const JointEquations& equations, const ContactState& state, const TangentFactor& J) {
   constexpr double moves = 1e-6, level = 1e-12, far = 1e6;
-  const MatrixXd dc = scale.cwiseInverse().asDiagonal() * J.free_motions();
-  const MatrixXd delta = state.product(&Response::ddelta, dc);
-  Mechanism result{{}, {}, equations.system->D_delta * delta.rightCols(1)};
+  const MatrixXd delta = state.product(&Response::ddelta, J.free_motions());
+  Mechanism result{{}, {}, equations.system->displaced(delta.rightCols(1))};
   const Index a = state.direction.rows();
   for (Index j = 0; j < equations.n_planes(); ++j) {
     if (!(delta.middleRows(j * a, a).norm() > moves * delta.norm())) continue;
@@ -57,7 +55,8 @@ Index soft_modes(const JointEquations& equations, const ContactState& state, dou
   for (Response& part : root.parts) part.ddelta = square_root(part.ddelta);
   const MatrixXd PS = root.times(system.S_ud, &Response::ddelta).transpose();
   MatrixXd A = root.times(PS, &Response::ddelta);
-  state.add(1, &Response::dF, A);
+  for (const PlacedResponse& part : state.parts)
+    A.block(part.row, part.row, part.F.size(), part.F.size()) += part.dF;
   return (matrices::symmetric_eigenvalues(A).array() < limit).count();
 }
 
@@ -66,11 +65,12 @@ double friction_norm(const MatrixXd& H) {
   return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
 }
 
-/// True if the tangent J certainly has no eigenvalue that `soft_modes` would count. A sufficient condition for laws
-/// that rise is that the symmetric part of d delta/dc^T J is positive definite, and with it that of the tangent
+/// True if the tangent J at a state certainly has no eigenvalue that `soft_modes` would count. Sufficient for laws that
+/// rise is that the symmetric part of d delta/dc^T J is positive definite, and with it that of the tangent
 /// stiffness J (d delta/dc)^-1. Planes of rigid laws do not move and are left out.
-bool surely_stable(const JointEquations& equations, const ContactState& state, const MatrixXd& J) {
+bool surely_stable(const JointEquations& equations, const ContactState& state) {
   if (!equations.rises) return false;
+  const MatrixXd J = tangent(*equations.system, state);
   constexpr double rigid = 1e-12;
   const Index n = J.rows();
   const MatrixXd ddelta = state.times(MatrixXd::Identity(n, n), &Response::ddelta);
@@ -113,21 +113,22 @@ Eigen::VectorXcd ritz_values(const std::function<VectorXd(const VectorXd&)>& map
   return matrices::eigenvalues(H.topRows(steps));
 }
 
-/// True if the Ritz values of a large tangent J show no eigenvalue that `soft_modes` would count. Those of J
-/// approximate eigenvalues far to the left; eigenvalues near zero are the largest of (J + s)^-1, with a shift s
-/// slightly above the limit, since J is singular if fasteners are open.
-bool seems_stable(const JointEquations& equations, const MatrixXd& J) {
-  constexpr Index few = 400, steps = 60;
-  constexpr double shift = 1e-6, left = -1e-8;
-  const Index n = J.rows();
-  if (n < few) return false;
-  const auto leftmost = [](const Eigen::VectorXcd& values) { return values.real().minCoeff(); };
-  if (leftmost(ritz_values([&](const VectorXd& x) -> VectorXd { return J * x; }, n, steps)) < left) return false;
-  MatrixXd shifted = J;
-  shifted.diagonal().array() += shift;
-  const TangentFactor factor(std::move(shifted), equations.system->rim_sizes);
-  const Eigen::VectorXcd inverse = ritz_values([&](const VectorXd& x) { return factor.step(x); }, n, steps);
-  return leftmost(inverse) > left * inverse.cwiseAbs().maxCoeff();
+/// The modes that `soft_modes` would count of a large tangent, by Ritz values. Those of the tangent J approximate
+/// eigenvalues far to the left. Eigenvalues above -s, a shift, are those of (J + s)^-1 at the edge: of a stable joint
+/// they are up to 1 / s, which fasteners that are open have, and of an unstable one more or far below zero.
+Index soft_ritz_values(const JointEquations& equations, const ContactState& state, const TangentFactor& J) {
+  constexpr Index steps = 40, steps_by_inverse = 20;
+  constexpr double left = -1e-8, shift = 1e-3, tolerance = 1e-2;  // the latter also of solutions by TangentFactor::step
+  const Index n = state.F.size();
+  const auto far_left = ritz_values([&](const VectorXd& x) -> VectorXd { return J.times(x); }, n, steps);
+  ContactState shifted = state;
+  for (Response& part : shifted.parts) part.dF.diagonal().array() += shift;
+  const TangentFactor factor(*equations.system, std::move(shifted));
+  const auto inverse = ritz_values([&](const VectorXd& x) { return factor.step(x); }, n, steps_by_inverse);
+  const auto is_soft = [&](const std::complex<double>& value) {
+    return shift * std::abs(value) > 1 + 2 * tolerance || shift * value.real() < -2 * tolerance;
+  };
+  return std::max((far_left.real().array() < left).count(), Index{std::ranges::count_if(inverse, is_soft)});
 }
 
 /// Sets a positive slope of the force of a plane along c, and that of its friction, to zero.
@@ -156,11 +157,10 @@ std::optional<double> self_locking(const JointEquations& equations, const Vector
   return 1 / largest;
 }
 
-TangentCheck check_tangent(const JointEquations& equations, const ContactState& state, const TangentFactor& factor,
-                           const VectorXd& scale) {
+TangentCheck check_tangent(const JointEquations& equations, const ContactState& state, const TangentFactor& factor) {
   TangentCheck check;
-  if (!(factor.rcond() > singular_tangent)) {
-    Mechanism found = mechanism(equations, state, factor, scale);
+  if (factor.is_singular()) {
+    Mechanism found = mechanism(equations, state, factor);
     if (!found.open.empty() || !found.level.empty()) {
       check.mechanism = std::move(found);
       return check;
@@ -172,9 +172,12 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   const bool rims_rub = std::ranges::any_of(equations.rims, [](const auto& rim) { return rim->contact().mu() > 0; });
   const bool in_doubt =
       rims_rub || (equations.has_cosine_friction && friction_norm(equations.friction_matrix(state.F)) >= 1);
-  const MatrixXd J = in_doubt ? MatrixXd(factor.matrix() * scale.asDiagonal()) : MatrixXd();
-  if (falls || (in_doubt && !surely_stable(equations, state, J) && !seems_stable(equations, J)))
+  constexpr Index large = 400;  // from here on all eigenvalues would take longer than the solution
+  if (in_doubt && state.F.size() >= large) {
+    check.unstable = soft_ritz_values(equations, state, factor);
+  } else if (falls || (in_doubt && !surely_stable(equations, state))) {
     check.unstable = soft_modes(equations, state, -singular_tangent);
+  }
   check.locking = self_locking(equations, state.F);
   return check;
 }

@@ -32,9 +32,9 @@ struct TangentCheck {
   [[nodiscard]] bool at_limit_load() const { return mechanism && !mechanism->level.empty(); }
 };
 
-/// @param scale Divisors of the columns of the tangent before it was factorised.
+/// @param factor Of the tangent at the state.
 [[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state,
-                                         const TangentFactor& factor, const VectorXd& scale);
+                                         const TangentFactor& factor);
 
 /// Friction reserve for the sides that bear under the forces F, (r).
 [[nodiscard]] std::optional<double> self_locking(const JointEquations& equations, const VectorXd& F);

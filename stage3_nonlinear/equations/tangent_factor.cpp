@@ -10,71 +10,93 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Number of waves of a rim, from `first` on, up to the last that is coupled to unknowns outside the rim. The measure
-/// is the product of both couplings over both diagonal entries, which is dimensionless.
-Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index size) {
-  constexpr double max_coupling = 1e-4, not_zero = std::numeric_limits<double>::min();
-  Eigen::ArrayXd coupling = Eigen::ArrayXd::Zero(size);
-  const auto add = [&](Index begin, Index end) {  // column by column, as J is stored
-    for (Index j = begin; j < end; ++j)
-      coupling = coupling.max(
-          (J.col(j).segment(first, size).array() * J.row(j).segment(first, size).transpose().array()).abs() /
-          std::max(std::abs(diagonal[j]), not_zero));
-  };
-  add(0, first);
-  add(first + size, J.cols());
-  Index n = size;
-  while (n > 0 && coupling[n - 1] <= max_coupling * std::abs(diagonal[first + n - 1])) --n;
-  return n;
+/// Divides the derivatives of a state by columns whose largest entry exceeds 1, and returns the divisors. Small columns
+/// stay: the tangent by contact coordinates is of order 1, and small columns are a lack of stiffness.
+VectorXd scale_columns(const CondensedSystem& system, ContactState& state) {
+  VectorXd scale(state.F.size());
+  for (PlacedResponse& part : state.parts) {
+    const Index n = part.F.size();
+    const auto entries = [](const MatrixXd& A) { return A.cwiseAbs().colwise().maxCoeff().transpose().eval(); };
+    auto its = scale.segment(part.row, n);
+    its = entries(part.dF).cwiseMax(system.K[part.row] * entries(part.ddelta)).cwiseMax(1.0);
+    for (MatrixXd* slopes : {&part.dF, &part.ddelta, &part.dLambda})
+      if (slopes->rows() > 0) slopes->array().rowwise() /= its.transpose().array();
+  }
+  return scale;
 }
 
-constexpr double factor_rounding = 1e-14, nearly_rounding = 1e-10;
-constexpr double for_errors = 1e-11;  // enough for error bars, which need J^T
+/// Rows of J in the columns of a part, (rows, n), without its dF.
+MatrixXd columns_of(const CondensedSystem& system, const PlacedResponse& part, const auto& rows) {
+  MatrixXd J = system.S_ud(rows, Eigen::seqN(part.row, part.F.size())) * part.ddelta;
+  if (const Index t = part.dLambda.rows(); t > 0)
+    J.noalias() += system.H(rows, Eigen::seqN(part.friction, t)) * part.dLambda;
+  return J;
+}
+
+constexpr double nearly_rounding = 1e-12, enough = 1e-10;  // of the right-hand side
 
 }  // namespace
 
-TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims)
-    : J_(std::move(J)), norm_(J_.size() > 0 ? J_.cwiseAbs().colwise().sum().maxCoeff() : 0) {
-  Index first = J_.rows() - std::accumulate(rims.begin(), rims.end(), Index{0});
+MatrixXd tangent(const CondensedSystem& system, const ContactState& state) {
+  MatrixXd J(system.S_ud.rows(), system.S_ud.cols());
+  for (const PlacedResponse& part : state.parts) {
+    J.middleCols(part.row, part.F.size()) = columns_of(system, part, Eigen::all);
+    J.block(part.row, part.row, part.F.size(), part.F.size()) += part.dF;
+  }
+  return J;
+}
+
+TangentFactor::TangentFactor(const CondensedSystem& system, ContactState state)
+    : system_(system), state_(std::move(state)), scale_(scale_columns(system_, state_)), is_singular_(false) {
+  Index first = system.S_ud.rows() - system.n_moments();
   kept_.resize(first);
   std::iota(kept_.begin(), kept_.end(), Index{0});
-  const VectorXd diagonal = J_.diagonal();
-  std::vector<Index> columns;  // of `schur_`, at which the long waves of a rim with short ones begin
-  for (const Index size : rims) {
-    const Index n = n_long(J_, diagonal, first, size);
-    if (n < size) {
-      columns.push_back(std::ssize(kept_));
-      short_waves_.push_back({first, first + n, first + size, {}, {}, {}});
-    }
-    for (Index i = 0; i < n; ++i) kept_.push_back(first + i);
-    first += size;
+  for (std::size_t rim = 0; rim < system.rim_sizes.size(); ++rim) {
+    for (Index i = 0; i < system.long_waves[rim]; ++i) kept_.push_back(first + i);
+    first += system.rim_sizes[rim];
   }
-  schur_ = short_waves_.empty() ? J_ : MatrixXd(J_(kept_, kept_));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    auto& rim = short_waves_[i];
-    const Index n = rim.end - rim.first, n_before = rim.first - rim.first_long;
-    rim.block = matrices::Lu(J_.block(rim.first, rim.first, n, n));
-    rim.by_long = rim.block.solve(J_.block(rim.first, rim.first_long, n, n_before));
-    rim.on_kept = J_(kept_, Eigen::seqN(rim.first, n));
-    schur_.middleCols(columns[i], n_before) -= rim.on_kept * rim.by_long;
+  schur_.resize(n_kept(), n_kept());
+  Index column = 0;
+  const Index n_parts = std::ssize(state_.parts), n_rims = std::ssize(system.rim_sizes);
+  for (Index i = 0; i < n_parts; ++i) {
+    const PlacedResponse& part = state_.parts[i];
+    const Index n = part.F.size(), n_long = i < n_parts - n_rims ? n : system.long_waves[i - (n_parts - n_rims)];
+    const MatrixXd on_kept = columns_of(system, part, kept_);
+    auto schur = schur_.middleCols(column, n_long);
+    schur = on_kept.leftCols(n_long);
+    schur.middleRows(column, n_long) += part.dF.topLeftCorner(n_long, n_long);
+    if (n_long < n) {
+      const Index n_short = n - n_long, begin = part.row + n_long;
+      MatrixXd own = columns_of(system, part, Eigen::seqN(begin, n_short)) + part.dF.bottomRows(n_short);
+      ShortWaves& rim = short_waves_.emplace_back(ShortWaves{part.row, begin, part.row + n, {}, {}, {}});
+      rim.block = matrices::Lu(own.rightCols(n_short));
+      rim.by_long = rim.block.solve(own.leftCols(n_long));
+      rim.on_kept = on_kept.rightCols(n_short);
+      rim.on_kept.middleRows(column, n_long) += part.dF.topRightCorner(n_long, n_short);
+      schur.noalias() -= rim.on_kept * rim.by_long;
+    }
+    column += n_long;
   }
   lu_ = matrices::Lu(schur_);
+  is_singular_ = !(lu_.rcond() * std::min(1.0, lu_.norm()) > singular_tangent);
+}
+
+MatrixXd TangentFactor::product(const MatrixXd& x) const {
+  MatrixXd result = state_.product(&Response::dF, x);
+  result.noalias() += system_.S_ud * state_.product(&Response::ddelta, x);
+  if (state_.Lambda.size() > 0) result.noalias() += system_.H * state_.friction_by(x);
+  return result;
 }
 
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
-  const auto solve = [this](const MatrixXd& f) { return lu_.solve(f); };
-  return refined(b, false, solve, factor_rounding, nearly_rounding);
+  return refined(
+      b, [this](const MatrixXd& f) { return lu_.solve(f); }, nearly_rounding, enough);
 }
 
 VectorXd TangentFactor::step(const VectorXd& b) const {
-  constexpr double wanted = 1e-6, enough = 1e-3;
+  constexpr double wanted = 1e-2;
   return refined(
-      b, false, [this](const MatrixXd& f) { return lu_.solve(f); }, wanted, enough);
-}
-
-MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
-  const auto solve = [this](const MatrixXd& f) { return lu_.solve_transposed(f); };
-  return refined(b, true, solve, factor_rounding, nearly_rounding);
+      b, [this](const MatrixXd& f) { return lu_.solve(f); }, wanted, 10 * wanted);
 }
 
 /// Finds the smallest singular values and their vectors by inverse iteration. The number of vectors grows until one of
@@ -123,48 +145,41 @@ const TangentFactor::NullSpace& TangentFactor::null_space() const {
 MatrixXd TangentFactor::solve_singular(const MatrixXd& b) const {
   const NullSpace& null = null_space();
   const auto solve = [&](const MatrixXd& f) { return null.lifted.solve(f - null.left * (null.left.transpose() * f)); };
-  return refined(b, false, solve, factor_rounding, std::nullopt);
+  return refined(b, solve, nearly_rounding, std::nullopt);
 }
 
-MatrixXd TangentFactor::solve_singular_transposed(const MatrixXd& b) const {
-  const NullSpace& null = null_space();
+MatrixXd TangentFactor::estimate_transposed(const MatrixXd& b) const {
   const auto solve = [&](const MatrixXd& f) -> MatrixXd {
+    if (!is_singular_) return lu_.solve_transposed(f);
+    const NullSpace& null = null_space();
     const MatrixXd x = null.lifted.solve_transposed(f);
     return x - null.left * (null.left.transpose() * x);
   };
-  return refined(b, true, solve, for_errors, std::nullopt);
+  return by_factor_transposed(unscaled(b), solve);
 }
 
-MatrixXd TangentFactor::refined(const MatrixXd& b, bool transposed, const Solve& by_schur, double wanted,
+MatrixXd TangentFactor::refined(const MatrixXd& b, const Solve& by_schur, double wanted,
                                 std::optional<double> enough) const {
-  if (short_waves_.empty()) return by_schur(b);
-  constexpr int max_steps = 8;
+  if (short_waves_.empty()) return unscaled(by_schur(b));
+  constexpr int max_steps = 30;
   constexpr double falls = 0.5, of_product = 1e-16, of_product_enough = 1e-14;
-  const auto solve = [&](const MatrixXd& f) {
-    return transposed ? by_factor_transposed(f, by_schur) : by_factor(f, by_schur);
-  };
-  const auto residual_of = [&](const MatrixXd& its) -> MatrixXd {
-    if (transposed) return b - J_.transpose() * its;
-    return b - J_ * its;
-  };
-  MatrixXd x = solve(b), residual = residual_of(x);
+  MatrixXd x = by_factor(b, by_schur), residual = b - product(x);
   // x is large if J is nearly singular, and then J x has rounding of its own.
   const auto is_within = [&](double of_b, double of_J) {
-    return residual.norm() <= std::max(of_b * b.norm(), of_J * norm_ * x.norm());
+    return residual.norm() <= std::max(of_b * b.norm(), of_J * lu_.norm() * x.norm());
   };
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_steps && !is_within(wanted, of_product) && residual.norm() < falls * before; ++i) {
     before = residual.norm();
-    x += solve(residual);
-    residual = residual_of(x);
+    x += by_factor(residual, by_schur);
+    residual = b - product(x);
   }
-  if (!enough || is_within(*enough, of_product_enough)) return x;
-  const matrices::Lu whole(J_);
-  return transposed ? whole.solve_transposed(b) : whole.solve(b);
+  if (!enough || is_within(*enough, of_product_enough)) return unscaled(x);
+  return unscaled(matrices::Lu(tangent(system_, state_)).solve(b));
 }
 
 MatrixXd TangentFactor::extended(const MatrixXd& kept) const {
-  MatrixXd x(J_.cols(), kept.cols());
+  MatrixXd x(scale_.size(), kept.cols());
   x(kept_, Eigen::all) = kept;
   for (const auto& rim : short_waves_)
     x.middleRows(rim.first, rim.end - rim.first) =

@@ -30,9 +30,6 @@ class ForceErrors {
   const JointModel& joint_;
   const JointEquations& equations_;
   bool are_known_;
-  /// Change of each plate's stiffness with the last degree in terms of the shear planes, D_delta^T dS D_delta: its
-  /// lower triangle with half the diagonal, (r, r); empty for a plate of one degree.
-  std::vector<MatrixXd> stiffness_changes_;
 };
 
 }  // namespace fastjoint::stage3

@@ -158,7 +158,7 @@ double worst_fastener(const JointModel& joint, const std::vector<PlateState>& pl
 
 MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, const MatrixXd& load,
                        const MatrixXd& delta, const MatrixXd& Lambda) {
-  MatrixXd D = system.D_load * load + system.D_delta * delta;
+  MatrixXd D = system.D_load * load + system.displaced(delta);
   if (Lambda.rows() > 0) D -= system.rigid.moved(friction_loads(joint, system.friction.columns, Lambda));
   return D;
 }

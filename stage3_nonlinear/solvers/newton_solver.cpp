@@ -81,27 +81,26 @@ class Bracket {
 };
 
 /// Moves along the step to a length at which the convex function is certainly lower, and either its slope has risen
-/// from `before` < 0 to nearly zero, as far as rounding allows, or the norm of the residual has halved; a whole step
-/// that halves the smallest norm so far is accepted at once (docs/theory.md, section 8.4, shows that both may be
-/// mixed). None if there is no such length.
+/// from `before` < 0 to nearly zero, as far as rounding allows, or the norm of the residual has halved. None if there
+/// is no such length.
+/// @param dual Metric times the step: its product with a residual is the slope there. @param whole The whole step.
 /// @param unbounded Set if the convex function still falls half as steeply at a very large length: it then has no
 /// minimum, and there is no root.
-std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, double before, double min_norm,
+std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, const VectorXd& dual, Root whole,
                                   const Root& root, bool& unbounded) {
   constexpr int max_tries = 100;
   constexpr double max_slope = 0.03;  // of the slope before
   constexpr double max_norm = 0.5;    // of the norm before
   constexpr double max_length = 1e8;  // of the step
-  const double norm_here = root.residual.norm();
+  const double norm_here = root.residual.norm(), before = root.residual.dot(dual);
   Bracket bracket(before);
   std::optional<Root> best;
   double best_slope = -before;
   double length = 1;
   for (int i = 0; i < max_tries && best_slope > -max_slope * before; ++i) {
-    Root there = moved(problem, root, step, length);
+    Root there = i == 0 ? std::move(whole) : moved(problem, root, step, length);
     const double norm = there.residual.norm();
-    if (i == 0 && norm <= max_norm * min_norm) return there;
-    const double slope = problem.gradient(there.residual).dot(step);
+    const double slope = there.residual.dot(dual);
     if (norm <= max_norm * norm_here && bracket.falls_to(length, slope)) return there;
     unbounded = length > max_length && slope < 0.5 * before;
     if (unbounded) return std::nullopt;
@@ -114,10 +113,17 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
   return best;
 }
 
+/// Accepts a whole step that halves the smallest norm so far (docs/theory.md, section 8.4, shows that this may be mixed
+/// with steps downhill), and else moves downhill if there is a convex function.
 std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double min_norm, const Root& root,
                          bool& unbounded) {
-  const double slope = problem.gradient ? problem.gradient(root.residual).dot(step) : 0;
-  auto there = slope < 0 ? move_downhill(problem, step, slope, min_norm, root, unbounded) : std::nullopt;
+  if (!problem.metric) return move_by_norm(problem, step, root);
+  constexpr double max_norm = 0.5;
+  Root whole = moved(problem, root, step, 1);
+  if (whole.residual.norm() <= max_norm * min_norm) return whole;
+  const VectorXd dual = problem.metric(step);
+  std::optional<Root> there;
+  if (root.residual.dot(dual) < 0) there = move_downhill(problem, step, dual, std::move(whole), root, unbounded);
   return there || unbounded ? there : move_by_norm(problem, step, root);
 }
 

@@ -16,9 +16,9 @@ using VectorFunction = std::function<VectorXd(const VectorXd&)>;
 struct RootProblem {
   VectorFunction residual;                            ///< (n) -> (n)
   std::function<MatrixXd(const VectorXd&)> jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
-  /// Gradient, as a function of the residual, of a convex function of x with its minimum at the root, if there is one,
-  /// (n) -> (n).
-  VectorFunction gradient{};
+  /// Product with a symmetric positive definite matrix that makes the residual the gradient of a convex function with
+  /// its minimum at the root, if there is one, (n) -> (n).
+  VectorFunction metric{};
   /// The inverse of the Jacobian at x, (n), times a vector, (n), if there is a faster way than by its factor.
   std::function<VectorXd(const VectorXd&, const VectorXd&)> solve{};
 };
@@ -61,7 +61,7 @@ void take_over_gsl_errors();
 
 /// Newton's method with damped steps, used where the other solvers fail.
 ///
-/// If problem.gradient is given, a step ends near the minimum of its convex function along the step, and the method
+/// If problem.metric is given, a step ends near the minimum of its convex function along the step, and the method
 /// converges from every start if that function is bounded below. Joints without friction whose laws never fall have
 /// such a function of the contact coordinate. docs/theory.md, section 8.4, derives it, proves convergence and gives the
 /// limits by rounding. Otherwise steps are halved until the norm of the residual falls, and convergence is not certain.

@@ -84,7 +84,7 @@ RootProblem displacement_problem(const RandomJoint& joint, double unit) {
           .jacobian = [&joint, unit, scale, steepest](const VectorXd& x) -> MatrixXd {
             return tangent(*joint.equations.system, state_at(joint, unit * x, steepest)) * (unit / scale);
           },
-          .gradient = {}};
+          .metric = {}};
 }
 
 std::vector<Trial> try_guesses(const RandomJoint& joint, stage3::SolveFunction solver, Coordinate coordinate,

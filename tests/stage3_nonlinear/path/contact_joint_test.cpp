@@ -51,12 +51,12 @@ TEST_F(ContactJoint, HaveAConvexFunction) {
     const Index n = equations.n_unknowns();
     const VectorXd x = VectorXd::NullaryExpr(n, [&] { return uniform(random_, -1, 1); });
     const VectorXd direction = VectorXd::NullaryExpr(n, [&] { return uniform(random_, -1, 1); });
-    const auto gradient = [&](const VectorXd& at) { return problem.gradient(problem.residual(at)); };
+    const auto gradient = [&](const VectorXd& at) { return problem.metric(problem.residual(at)); };
     const auto slope = [&](double side) { return gradient(x + side * step * direction); };
     const VectorXd difference = (slope(1) - slope(-1)) / (2 * step);
     const MatrixXd J = tangent(*equations.system, contact_state(equations, x));
     MatrixXd H(n, n);
-    for (Index j = 0; j < n; ++j) H.col(j) = problem.gradient(J.col(j));
+    for (Index j = 0; j < n; ++j) H.col(j) = problem.metric(J.col(j));
     EXPECT_LT((H * direction - difference).norm(), 1e-4 * (H * direction).norm()) << "joint " << i;
     EXPECT_LT((H - H.transpose()).norm(), 1e-12 * H.norm());
     EXPECT_GT(matrices::symmetric_eigenvalues(H)[0], -1e-12 * H.norm()) << "joint " << i;
