@@ -15,7 +15,7 @@ LinearForces linear_forces(const JointEquations& equations, const VectorXd& flex
     part.ddelta = flexibility.segment(part.row, n).asDiagonal();
     part.dLambda.resize(0, n);
   }
-  LinearForces result{TangentFactor(*equations.system, state).step(rhs), !equations.has_cosine_friction};
+  LinearForces result{TangentFactor(*equations.system, state).solve(rhs), !equations.has_cosine_friction};
   for (int i = 1; i < max_tries && !result.consistent; ++i) {
     bool same = true;
     for (std::size_t at = 0; at < state.parts.size(); ++at) {
@@ -26,7 +26,7 @@ LinearForces linear_forces(const JointEquations& equations, const VectorXd& flex
       part.dLambda = std::move(by_force);
     }
     result.consistent = same;
-    if (!same) result.F = TangentFactor(*equations.system, state).step(rhs);
+    if (!same) result.F = TangentFactor(*equations.system, state).solve(rhs);
   }
   return result;
 }
