@@ -12,8 +12,8 @@ namespace fastjoint::stage3 {
 
 /// Derivatives of the bearing forces as vectors, one column for each parameter (docs/theory.md, section 10).
 struct Slopes {
-  MatrixXd F;  ///< (r, columns)
-  MatrixXd c;  ///< (r, columns) of the contact coordinates
+  MatrixXd F;                            ///< (r, columns)
+  MatrixXd c;                            ///< (r, columns) of the contact coordinates
   std::vector<Index> no_column, no_row;  ///< columns and rows of F that have no derivative
 };
 

@@ -55,8 +55,7 @@ Index soft_modes(const JointEquations& equations, const ContactState& state, dou
   for (Response& part : root.parts) part.ddelta = square_root(part.ddelta);
   const MatrixXd PS = root.times(system.S_ud, &Response::ddelta).transpose();
   MatrixXd A = root.times(PS, &Response::ddelta);
-  for (const PlacedResponse& part : state.parts)
-    A.block(part.row, part.row, part.F.size(), part.F.size()) += part.dF;
+  for (const PlacedResponse& part : state.parts) A.block(part.row, part.row, part.F.size(), part.F.size()) += part.dF;
   return (matrices::symmetric_eigenvalues(A).array() < limit).count();
 }
 

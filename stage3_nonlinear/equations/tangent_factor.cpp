@@ -33,7 +33,7 @@ MatrixXd columns_of(const CondensedSystem& system, const PlacedResponse& part, c
   return J;
 }
 
-constexpr double nearly_rounding = 1e-12, enough = 1e-10;  // of the right-hand side
+constexpr double nearly_rounding = 1e-12, near_enough = 1e-10;  // of the right-hand side
 
 }  // namespace
 
@@ -90,7 +90,7 @@ MatrixXd TangentFactor::product(const MatrixXd& x) const {
 
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
   return refined(
-      b, [this](const MatrixXd& f) { return lu_.solve(f); }, nearly_rounding, enough);
+      b, [this](const MatrixXd& f) { return lu_.solve(f); }, nearly_rounding, near_enough);
 }
 
 VectorXd TangentFactor::step(const VectorXd& b) const {

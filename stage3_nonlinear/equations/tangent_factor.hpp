@@ -83,12 +83,12 @@ class TangentFactor {
   [[nodiscard]] MatrixXd unscaled(const MatrixXd& x) const { return scale_.cwiseInverse().asDiagonal() * x; }
 
   const CondensedSystem& system_;
-  ContactState state_;  ///< with derivatives divided by scale_
-  VectorXd scale_;      ///< (r) >= 1, divisors of the columns of J, whose entries are then of order 1 or less
+  ContactState state_;       ///< with derivatives divided by scale_
+  VectorXd scale_;           ///< (r) >= 1, divisors of the columns of J, whose entries are then of order 1 or less
   std::vector<Index> kept_;  ///< planes and long waves
   std::vector<ShortWaves> short_waves_;
   MatrixXd schur_;
-  matrices::Lu lu_;                              ///< of schur_
+  matrices::Lu lu_;  ///< of schur_
   bool is_singular_;
   mutable std::optional<NullSpace> null_space_;  ///< if it has been found
 };

@@ -86,8 +86,8 @@ class Bracket {
 /// @param dual Metric times the step: its product with a residual is the slope there. @param whole The whole step.
 /// @param unbounded Set if the convex function still falls half as steeply at a very large length: it then has no
 /// minimum, and there is no root.
-std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, const VectorXd& dual, Root whole,
-                                  const Root& root, bool& unbounded) {
+std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, const VectorXd& dual,
+                                  const Root& whole, const Root& root, bool& unbounded) {
   constexpr int max_tries = 100;
   constexpr double max_slope = 0.03;  // of the slope before
   constexpr double max_norm = 0.5;    // of the norm before
@@ -98,7 +98,7 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
   double best_slope = -before;
   double length = 1;
   for (int i = 0; i < max_tries && best_slope > -max_slope * before; ++i) {
-    Root there = i == 0 ? std::move(whole) : moved(problem, root, step, length);
+    Root there = i == 0 ? whole : moved(problem, root, step, length);
     const double norm = there.residual.norm();
     const double slope = there.residual.dot(dual);
     if (norm <= max_norm * norm_here && bracket.falls_to(length, slope)) return there;
@@ -123,7 +123,7 @@ std::optional<Root> move(const RootProblem& problem, const VectorXd& step, doubl
   if (whole.residual.norm() <= max_norm * min_norm) return whole;
   const VectorXd dual = problem.metric(step);
   std::optional<Root> there;
-  if (root.residual.dot(dual) < 0) there = move_downhill(problem, step, dual, std::move(whole), root, unbounded);
+  if (root.residual.dot(dual) < 0) there = move_downhill(problem, step, dual, whole, root, unbounded);
   return there || unbounded ? there : move_by_norm(problem, step, root);
 }
 
