@@ -99,13 +99,17 @@ VectorXd TangentFactor::step(const VectorXd& b) const {
       b, [this](const MatrixXd& f) { return lu_.solve(f); }, wanted, 10 * wanted);
 }
 
-/// Finds the smallest singular values and their vectors by inverse iteration. The number of vectors grows until one of
-/// them is outside the null space, which takes fewer operations than all singular values.
+/// Finds the smallest singular values and their vectors by inverse iteration. There are at first a few more vectors than
+/// directions in which fasteners are open, and then more until one of them is outside the null space, which takes fewer
+/// operations than all singular values.
 const TangentFactor::NullSpace& TangentFactor::null_space() const {
   if (null_space_) return *null_space_;
   const Index n = schur_.rows();
   constexpr double shift = 1e-12;  // makes a singular matrix regular
-  constexpr int turns = 3, first = 8;
+  constexpr int turns = 2, powers = 6;
+  Index first = 8;
+  for (std::size_t i = 0; i + system_.rim_sizes.size() < state_.parts.size(); ++i)
+    first += (state_.parts[i].dF.array() == 0).rowwise().all().count();
   const double norm = lu_.norm();
   MatrixXd shifted = schur_;
   shifted.diagonal().array() += shift * (norm > 0 ? norm : 1);  // J is 0 if no fastener of floating sheets bears
@@ -114,7 +118,7 @@ const TangentFactor::NullSpace& TangentFactor::null_space() const {
   std::normal_distribution<double> normal;
   VectorXd x = VectorXd::NullaryExpr(n, [&] { return normal(random); });
   double largest = 0;  // largest singular value, by power iteration
-  for (int i = 0; i < 2 * turns && x.norm() > 0; ++i) {
+  for (int i = 0; i < powers && x.norm() > 0; ++i) {
     x.normalize();
     x = schur_.transpose() * (schur_ * x).eval();
     largest = std::sqrt(x.norm());
