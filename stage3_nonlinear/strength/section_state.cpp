@@ -24,8 +24,9 @@ SectionState section_state(const HoleSections& sections, const std::vector<Secti
   state.bypass_across = passing_by[0] + passing_by[1] - passing.value;  // the trace is that of any axes
   if (!passing_by.allFinite()) state.bypass_across = infinite;
   if (std::abs(state.bypass_load) > rounding * largest) state.bypass_direction = passing.direction;
+  const bool is_known = forces.size() > 1 && std::isfinite(state.bypass_load);
   state.bypass_error =
-      forces.size() > 1 ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest) : infinite;
+      is_known ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest) : infinite;
   const Principal net = largest_tension(sections.net(forces[0], T, largest));
   state.net_stress = net.value;
   const Principal gross = larger_principal(sections.gross(forces[0], T, largest));

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "common/rim/angles.hpp"
+#include "stage3_nonlinear/strength/section_state.hpp"
 
 namespace fastjoint::stage3::section_stress_test {
 
@@ -93,7 +94,11 @@ TEST(SectionStress, ShearThatIsNotKnownMakesTheStressUnknown) {
   const auto a = cell();
   SectionForces forces = uniform({10, 4, 0}, a);
   forces.shear.setConstant(std::nan(""));
-  EXPECT_TRUE(std::isinf(larger_principal(HoleSections(a, 0).bypass(forces, {0, 0}, 1)).value));
+  const HoleSections sections(a, 0);
+  EXPECT_TRUE(std::isinf(larger_principal(sections.bypass(forces, {0, 0}, 1)).value));
+  const SectionState state = section_state(sections, {forces, forces}, {0, 0}, 1, 0.01, 30);
+  for (const double each : {state.bypass_load, state.bypass_error, state.bypass_across, state.net_stress})
+    EXPECT_TRUE(std::isinf(each)) << each;
 }
 
 }  // namespace fastjoint::stage3::section_stress_test
