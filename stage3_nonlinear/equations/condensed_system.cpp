@@ -136,11 +136,12 @@ MatrixXd CondensedSystem::displaced(const MatrixXd& delta) const {
 
 VectorXd CondensedSystem::metric_times(const VectorXd& f) const {
   constexpr double tolerance = 1e-13;
+  constexpr int max_steps = 200;  // some 70 are enough: each takes a third of the residual or more
   const auto times_W = [&](const VectorXd& x) -> VectorXd { return K.cwiseProduct(x) - S_ud * x; };
   VectorXd x = f.cwiseQuotient(K), residual = f - times_W(x), direction = residual.cwiseQuotient(K);
   double size = residual.dot(direction);
   const double enough = tolerance * tolerance * x.dot(f);
-  for (Index i = 0; i < 10 * f.size() && size > enough; ++i) {
+  for (int i = 0; i < max_steps && size > enough; ++i) {
     const VectorXd by = times_W(direction);
     const double length = size / direction.dot(by);
     x += length * direction;

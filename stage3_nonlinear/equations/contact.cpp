@@ -60,11 +60,6 @@ MatrixXd ContactState::product(MatrixXd Response::*slopes, const MatrixXd& x) co
   return result;
 }
 
-void ContactState::add(double factor, MatrixXd Response::*slopes, MatrixXd& A) const {
-  for (const PlacedResponse& part : parts)
-    A.block(part.row, part.row, part.F.size(), part.F.size()) += factor * part.*slopes;
-}
-
 MatrixXd ContactState::friction_by(const MatrixXd& dc) const {
   MatrixXd result = MatrixXd::Zero(Lambda.size(), dc.cols());
   for (const PlacedResponse& part : parts)

@@ -45,8 +45,6 @@ struct ContactState {
   [[nodiscard]] MatrixXd times(const MatrixXd& A, MatrixXd Response::*slopes) const;
   /// Product of that matrix and x, (r, columns).
   [[nodiscard]] MatrixXd product(MatrixXd Response::*slopes, const MatrixXd& x) const;
-  /// Adds a factor times that matrix to A, (r, r).
-  void add(double factor, MatrixXd Response::*slopes, MatrixXd& A) const;
   /// Changes of the amplitudes of friction, (t, columns): the derivative by c times dc, (r, columns).
   [[nodiscard]] MatrixXd friction_by(const MatrixXd& dc) const;
 };

@@ -88,20 +88,16 @@ MatrixXd TangentFactor::product(const MatrixXd& x) const {
   return result;
 }
 
-MatrixXd TangentFactor::solve(const MatrixXd& b) const {
-  return refined(
-      b, [this](const MatrixXd& f) { return lu_.solve(f); }, nearly_rounding, near_enough);
-}
+MatrixXd TangentFactor::solve(const MatrixXd& b) const { return refined(b, by_lu(), nearly_rounding, near_enough); }
 
 VectorXd TangentFactor::step(const VectorXd& b) const {
   constexpr double wanted = 1e-2;
-  return refined(
-      b, [this](const MatrixXd& f) { return lu_.solve(f); }, wanted, 10 * wanted);
+  return refined(b, by_lu(), wanted, 10 * wanted);
 }
 
-/// Finds the smallest singular values and their vectors by inverse iteration. There are at first a few more vectors than
-/// directions in which fasteners are open, and then more until one of them is outside the null space, which takes fewer
-/// operations than all singular values.
+/// Finds the smallest singular values and their vectors by inverse iteration. There are at first a few more vectors
+/// than directions in which fasteners are open, and then more until one of them is outside the null space, which takes
+/// fewer operations than all singular values.
 const TangentFactor::NullSpace& TangentFactor::null_space() const {
   if (null_space_) return *null_space_;
   const Index n = schur_.rows();

@@ -60,6 +60,9 @@ class TangentFactor {
   };
   /// Solves with the Schur complement, or with its transpose.
   using Solve = std::function<MatrixXd(const MatrixXd&)>;
+  [[nodiscard]] Solve by_lu() const {
+    return [this](const MatrixXd& f) { return lu_.solve(f); };
+  }
   /// Solutions with the factor only, without refinement.
   [[nodiscard]] MatrixXd by_factor(const MatrixXd& b, const Solve& solve) const;
   [[nodiscard]] MatrixXd by_factor_transposed(const MatrixXd& b, const Solve& solve) const;
