@@ -100,6 +100,15 @@ double Lu::rcond() const {
   return result;
 }
 
+bool Lu::is_negative() const {
+  bool negative = false;
+  for (std::size_t i = 0; i < pivots_.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    negative ^= (factors_(row, row) < 0) != (pivots_[i] != static_cast<int>(i) + 1);  // pivots count from 1
+  }
+  return negative;
+}
+
 MatrixXd orthonormal_basis(MatrixXd A) {
   if (A.size() == 0) return A;
   const lapack_int m = size_of(A.rows()), n = size_of(A.cols());

@@ -33,6 +33,8 @@ class Lu {
   [[nodiscard]] double norm() const { return norm_; }
   /// Reciprocal condition number in that norm, estimated; 0 where a pivot is 0.
   [[nodiscard]] double rcond() const;
+  /// True if the determinant of A is below 0.
+  [[nodiscard]] bool is_negative() const;
 
  private:
   [[nodiscard]] Eigen::MatrixXd solved(const char* which, Eigen::MatrixXd b) const;

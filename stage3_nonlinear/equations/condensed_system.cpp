@@ -134,10 +134,18 @@ MatrixXd CondensedSystem::displaced(const MatrixXd& delta) const {
   return rigid.Y() * delta - rigid.restore(half * delta);
 }
 
+MatrixXd CondensedSystem::S_times(const MatrixXd& x) const {
+  constexpr Index few = 4;  // up to these, to read half of the matrix for each is quicker
+  if (x.cols() > few) return S_ud * x;
+  MatrixXd result(x.rows(), x.cols());
+  for (Index i = 0; i < x.cols(); ++i) result.col(i) = S_ud.selfadjointView<Eigen::Lower>() * x.col(i);
+  return result;
+}
+
 VectorXd CondensedSystem::metric_times(const VectorXd& f) const {
   constexpr double tolerance = 1e-13;
   constexpr int max_steps = 200;  // some 70 are enough: each takes a third of the residual or more
-  const auto times_W = [&](const VectorXd& x) -> VectorXd { return K.cwiseProduct(x) - S_ud * x; };
+  const auto times_W = [&](const VectorXd& x) -> VectorXd { return K.cwiseProduct(x) - S_times(x); };
   VectorXd x = f.cwiseQuotient(K), residual = f - times_W(x), direction = residual.cwiseQuotient(K);
   double size = residual.dot(direction);
   const double enough = tolerance * tolerance * x.dot(f);

@@ -44,6 +44,8 @@ struct CondensedSystem {
   [[nodiscard]] Index n_moments() const { return std::accumulate(rim_sizes.begin(), rim_sizes.end(), Index{0}); }
   /// Displacements of all unknowns by relative displacements alone, D_delta delta, (N, columns).
   [[nodiscard]] MatrixXd displaced(const MatrixXd& delta) const;
+  /// S_ud x, (r, columns).
+  [[nodiscard]] MatrixXd S_times(const MatrixXd& x) const;
   /// W^-1 f, (r), by conjugate gradients: the eigenvalues of K^-1 W are between 1/20 and 1.
   [[nodiscard]] VectorXd metric_times(const VectorXd& f) const;
 };

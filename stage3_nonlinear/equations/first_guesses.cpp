@@ -57,14 +57,15 @@ VectorXd guessed_coordinates(const JointEquations& equations, const VectorXd& F)
   return c;
 }
 
-std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial, double load_factor) {
+std::vector<InitialScene> guesses_in_order(const InitialScene& initial) {
   std::vector<InitialScene> order{initial};
   for (const Guess guess : {Guess::linear, Guess::rigid, Guess::equal})
     if (guess != initial.guess) order.push_back({guess, std::nullopt});
-  std::vector<VectorXd> guesses;
-  for (const auto& each : order)
-    guesses.push_back(guessed_coordinates(equations, guessed_forces(equations, each, load_factor)));
-  return guesses;
+  return order;
+}
+
+VectorXd first_guess(const JointEquations& equations, const InitialScene& guess, double load_factor) {
+  return guessed_coordinates(equations, guessed_forces(equations, guess, load_factor));
 }
 
 }  // namespace fastjoint::stage3

@@ -28,8 +28,10 @@ struct LinearForces {
 /// Contact coordinates at which the bearing forces are approximately F, (r), force.
 [[nodiscard]] VectorXd guessed_coordinates(const JointEquations& equations, const VectorXd& F);
 
-/// The user's guess, then the others, as contact coordinates; each of shape (r), force.
-[[nodiscard]] std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial,
-                                                  double load_factor);
+/// The user's guess, then the others.
+[[nodiscard]] std::vector<InitialScene> guesses_in_order(const InitialScene& initial);
+
+/// The same for the forces of a guess.
+[[nodiscard]] VectorXd first_guess(const JointEquations& equations, const InitialScene& guess, double load_factor);
 
 }  // namespace fastjoint::stage3

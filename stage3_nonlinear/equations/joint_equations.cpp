@@ -196,7 +196,7 @@ VectorXd JointEquations::deforming(const VectorXd& delta) const {
 }
 
 VectorXd JointEquations::required(const ContactState& state, bool friction) const {
-  VectorXd forces = state.F + system->S_ud * state.delta;
+  VectorXd forces = state.F + system->S_times(state.delta);
   if (friction) forces += system->H * state.Lambda;
   return forces;
 }
@@ -239,7 +239,8 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   if (equations.rises && !friction)
     problem.metric = [&system](const VectorXd& step) { return system.metric_times(step); };
   problem.solve = [&system, stiffened](const VectorXd& x, const VectorXd& r) -> VectorXd {
-    return TangentFactor(system, stiffened(x)).step(r);
+    constexpr double of_residual = 0.1, least = 1e-7, most = 1e-2;  // the residual after a step is of order |r|^2
+    return TangentFactor(system, stiffened(x)).step(r, std::clamp(of_residual * r.norm(), least, most));
   };
   return problem;
 }

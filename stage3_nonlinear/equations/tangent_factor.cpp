@@ -81,18 +81,28 @@ TangentFactor::TangentFactor(const CondensedSystem& system, ContactState state)
   is_singular_ = !(lu_.rcond() * std::min(1.0, lu_.norm()) > singular_tangent);
 }
 
+/// With J = U s V^T, null spaces L in U and R in V, the product of J's other eigenvalues has the sign of det U det V
+/// det L^T R, and J + L R^T that of det U det V.
+bool TangentFactor::is_negative() const {
+  const auto its = [](const ShortWaves& rim) { return rim.block.is_negative(); };
+  bool negative = std::ranges::count_if(short_waves_, its) % 2 == 1;
+  if (!is_singular_) return negative != lu_.is_negative();
+  const NullSpace& null = null_space();
+  return negative != (null.lifted.is_negative() != matrices::Lu(null.left.transpose() * null.right).is_negative());
+}
+
 MatrixXd TangentFactor::product(const MatrixXd& x) const {
   MatrixXd result = state_.product(&Response::dF, x);
-  result.noalias() += system_.S_ud * state_.product(&Response::ddelta, x);
+  result.noalias() += system_.S_times(state_.product(&Response::ddelta, x));
   if (state_.Lambda.size() > 0) result.noalias() += system_.H * state_.friction_by(x);
   return result;
 }
 
 MatrixXd TangentFactor::solve(const MatrixXd& b) const { return refined(b, by_lu(), nearly_rounding, near_enough); }
 
-VectorXd TangentFactor::step(const VectorXd& b) const {
-  constexpr double wanted = 1e-2;
-  return refined(b, by_lu(), wanted, 10 * wanted);
+VectorXd TangentFactor::step(const VectorXd& b, double wanted) const {
+  constexpr double enough = 0.1;
+  return refined(b, by_lu(), wanted, enough);
 }
 
 /// Finds the smallest singular values and their vectors by inverse iteration. There are at first a few more vectors

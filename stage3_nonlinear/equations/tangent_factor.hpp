@@ -33,14 +33,17 @@ class TangentFactor {
 
   /// Solution x of J x = b, (r, columns), to 1e-12 of b or to rounding.
   [[nodiscard]] MatrixXd solve(const MatrixXd& b) const;
-  /// The same to a hundredth of b, which is enough for a step of Newton's method.
-  [[nodiscard]] VectorXd step(const VectorXd& b) const;
+  /// The same to a fraction of b, or as nearly as refinement comes, for a step of Newton's method.
+  [[nodiscard]] VectorXd step(const VectorXd& b, double wanted) const;
   /// Solution x of J^T x = b, (r, columns), to about a tenth of b where waves are eliminated rim by rim, for estimates;
   /// by least squares if J is singular.
   [[nodiscard]] MatrixXd estimate_transposed(const MatrixXd& b) const;
   /// True if the reciprocal condition number of the Schur complement, which is singular if J is, is below
   /// singular_tangent; times its norm if that is below 1, since J is of order 1 and a small one counts as singular.
   [[nodiscard]] bool is_singular() const { return is_singular_; }
+  /// True if an odd number of eigenvalues of J are real and below 0, by the determinant of the factor; eigenvalues of
+  /// the null space do not count.
+  [[nodiscard]] bool is_negative() const;
   /// Null space of a singular J, (r, n), n >= 1.
   [[nodiscard]] MatrixXd free_motions() const { return unscaled(extended(null_space().right)); }
   /// Least-squares solution x of J x = b for a singular J, (r, columns).

@@ -55,7 +55,7 @@ class Search {
       const auto next = solved(load);
       if (!next) search_below_limit(here, load);
       if (!next || !between(here, *next, 0)) break;
-      walk_.put({next->load, next->c}, 0);
+      walk_.put({next->load, next->c}, 0, Place{here.load, here.c});
       here = *next;
     }
     return std::move(found_);
@@ -100,7 +100,8 @@ class Search {
   bool halve(const Sample& a, const Sample& b, int depth) {
     const double load = touches_.place_between(a, b).value_or(0.5 * (a.load + b.load));
     const Sample& nearer = load - a.load < b.load - load ? a : b;
-    walk_.put({nearer.load, nearer.c}, 0);
+    const Sample& further = &nearer == &a ? b : a;
+    walk_.put({nearer.load, nearer.c}, 0, Place{further.load, further.c});
     const auto middle = solved(load);
     return middle && between(a, *middle, depth + 1) && between(*middle, b, depth + 1);
   }

@@ -194,19 +194,40 @@ bool Walk::begin(double target) {
   return true;
 }
 
+bool Walk::solve_from_here(double target) {
+  return begin(target) || solve_from({[&] { return predicted(target); }}, target);
+}
+
+VectorXd Walk::predicted(double target) const {
+  if (may_snap_ || !other_ || other_->load_factor == here_.load_factor) return here_.c;
+  const double length = (target - here_.load_factor) / (here_.load_factor - other_->load_factor);
+  VectorXd c = here_.c + length * (here_.c - other_->c);
+  const auto imbalance = [&](const VectorXd& at) {
+    return equations_.residual(contact_state(equations_, at), target).norm();
+  };
+  return imbalance(c) < imbalance(here_.c) ? c : here_.c;
+}
+
 bool Walk::solve_from_guesses(double target) {
   const bool is_new = guessed_.insert(target).second;  // the same guesses would fail as before
-  auto starts = is_new ? first_guesses(equations_, options_.initial, target) : std::vector<VectorXd>();
-  starts.insert(here_.load_factor != 0 || !here_.c.isZero(0) ? starts.begin() : starts.end(), here_.c);
-  if (const auto place = frictionless_start(starts.front(), target)) starts.insert(starts.begin(), *place);
-  if (may_snap_ && is_new)  // starts at large coordinates, for a solution that the others do not lead to
-    for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
+  const auto guesses = is_new ? guesses_in_order(options_.initial) : std::vector<InitialScene>();
+  std::vector<Start> starts;
+  for (const InitialScene& guess : guesses)
+    starts.emplace_back([&, guess] { return first_guess(equations_, guess, target); });
+  starts.insert(here_.load_factor != 0 || !here_.c.isZero(0) ? starts.begin() : starts.end(), [&] { return here_.c; });
+  if (starts_without_friction())
+    starts.insert(starts.begin(), [&, first = starts.front()] { return frictionless_start(*first(), target); });
+  for (const InitialScene& guess : guesses)  // starts at large coordinates, for a solution that the others do not reach
+    if (may_snap_) starts.emplace_back([&, guess]() -> VectorXd { return 4 * first_guess(equations_, guess, target); });
   return solve_from(starts, target) || (!is_known_beyond_limit(target) && solve_with_lagged_friction(target));
 }
 
-std::optional<VectorXd> Walk::frictionless_start(const VectorXd& start, double target) {
+bool Walk::starts_without_friction() const {
   const bool all_gaps = std::ranges::all_of(equations_.rims, [](const auto& rim) { return rim->contact().gap() > 0; });
-  if (equations_.rims.empty() || !all_gaps || !equations_.has_friction || !equations_.rises) return std::nullopt;
+  return !equations_.rims.empty() && all_gaps && equations_.has_friction && equations_.rises;
+}
+
+std::optional<VectorXd> Walk::frictionless_start(const VectorXd& start, double target) {
   const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
   const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);
   if (!root.converged) return std::nullopt;
@@ -230,11 +251,13 @@ bool Walk::at_limit() const {
          !level_planes(equations_, best_).empty();
 }
 
-bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
+bool Walk::solve_from(const std::vector<Start>& starts, double target) {
   const auto problem = root_problem(equations_, target, scale_);
   const auto solved_by = [&](SolveFunction solver) {
-    for (const VectorXd& start : starts) {
-      const Root root = run(problem, start, solver);
+    for (const Start& make_start : starts) {
+      const auto start = make_start();
+      if (!start) continue;
+      const Root root = run(problem, *start, solver);
       if (take(root, target)) return true;
       if (solver != newton_root) continue;
       note_failure(root);  // Newton's method descends, so that its end shows the limit load
@@ -330,7 +353,8 @@ bool Walk::take(const Root& root, double target) {
     }
     return false;
   }
-  here_ = {target, c};
+  if (here_.load_factor != target) other_ = std::move(here_);
+  here_ = {target, std::move(c)};
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <set>
 #include <utility>
@@ -36,7 +37,10 @@ class Walk {
   bool start(LoadPath& path);
   [[nodiscard]] const Place& here() const { return here_; }
   /// Continues from a solution found elsewhere.
-  void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
+  /// @param other Another one, if there is one near.
+  void put(Place place, int iterations, std::optional<Place> other = {}) {
+    here_ = std::move(place), iterations_ = iterations, other_ = std::move(other);
+  }
 
   [[nodiscard]] PathStep step() const { return step(SolvedPoint(equations_, here_.load_factor, here_.c)); }
   [[nodiscard]] const JointEquations& equations() const { return equations_; }
@@ -55,12 +59,18 @@ class Walk {
   [[nodiscard]] std::optional<double> locking(double load_factor) const;
   bool follow(double target, int halvings_left);
   bool guess(double target, int halvings_left);
-  bool solve_from_here(double target) { return begin(target) || solve_from({here_.c}, target); }
+  /// Makes contact coordinates that a try starts at, (r), force; none if it has none.
+  using Start = std::function<std::optional<VectorXd>()>;
+  bool solve_from_here(double target);
   /// Sets the scale of a try; true if the target is no load, whose solution is known.
   bool begin(double target);
   bool solve_from_guesses(double target);
-  bool solve_from(const std::vector<VectorXd>& starts, double target);
-  /// Solution without friction of a joint whose rims all have gaps, which is a good start for that with friction.
+  bool solve_from(const std::vector<Start>& starts, double target);
+  /// The last solution, or that on the straight line through it and the one before if this leaves less residual.
+  [[nodiscard]] VectorXd predicted(double target) const;
+  /// True if all rims have gaps: the solution without friction is then a good start for that with friction.
+  [[nodiscard]] bool starts_without_friction() const;
+  /// That solution, if it is found.
   std::optional<VectorXd> frictionless_start(const VectorXd& start, double target);
   bool solve_with_lagged_friction(double target);
   Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver);
@@ -97,6 +107,7 @@ class Walk {
   double target_ = 0;    ///< load factor of the current try
   bool may_snap_;        ///< the solution may be one of several
   Place here_;
+  std::optional<Place> other_;  ///< a solution at another load factor, from which the next may be predicted
   int iterations_ = 0;
   std::set<double> guessed_;  ///< load factors that the first guesses of this increment have been tried at
   std::optional<PathLeft> left_;

@@ -127,6 +127,14 @@ std::optional<Root> move(const RootProblem& problem, const VectorXd& step, doubl
   return there || unbounded ? there : move_by_norm(problem, step, root);
 }
 
+/// Residuals of two steps that fall by the same ratio as Newton's method leaves of a force that grows with the depth of
+/// contact to the power of 1.5 and vanishes at the root: (1/3)^1.5 = 0.19. It is that of a rim that only just touches.
+bool leaves_contact(double norm, double before, double before_that) {
+  constexpr double low = 0.16, high = 0.23;
+  const auto is_such = [&](double ratio) { return ratio > low && ratio < high; };
+  return is_such(norm / before) && is_such(before / before_that);
+}
+
 VectorXd newton_step(const RootProblem& problem, const Root& root) {
   if (problem.solve) return -problem.solve(root.x, root.residual);
   return -problem.jacobian(root.x).partialPivLu().solve(root.residual);
@@ -156,7 +164,7 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
   // across corners do not do for long.
   constexpr double same = 1e-3;
   constexpr int many = 25;
-  double norm = 0;
+  double norm = 0, norm_before = 0;
   int n_same = 0;
   while (!(root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) && root.iterations < options.max_iterations) {
     ++root.iterations;
@@ -168,10 +176,15 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
       root.ending = !step.allFinite() ? Ending::not_finite : unbounded ? Ending::unbounded : Ending::no_progress;
       break;
     }
+    if (leaves_contact(there->residual.norm(), norm, norm_before)) {
+      constexpr double length = 1.5;  // the power: a step of this length ends at the root
+      Root further = moved(problem, root, step, length);
+      if (further.residual.norm() < there->residual.norm()) there = std::move(further);
+    }
     root = *std::move(there);
     report();
-    const double before = std::exchange(norm, root.residual.norm());
-    n_same = std::abs(norm - before) <= same * before ? n_same + 1 : 0;
+    norm_before = std::exchange(norm, root.residual.norm());
+    n_same = std::abs(norm - norm_before) <= same * norm_before ? n_same + 1 : 0;
     if (n_same >= many) {
       root.ending = Ending::no_progress;
       break;

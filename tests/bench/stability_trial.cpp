@@ -95,7 +95,8 @@ std::vector<Trial> try_guesses(const RandomJoint& joint, stage3::SolveFunction s
   const double unit = contact ? scale : scale / equations.contacts[0].stiffness;
   const RootProblem problem = contact ? root_problem(equations, 1, scale) : displacement_problem(joint, unit);
   std::vector<Trial> trials;
-  for (const auto& c : first_guesses(equations, {}, 1)) {
+  for (const auto& guess : guesses_in_order({})) {
+    const VectorXd c = first_guess(equations, guess, 1);
     const VectorXd start = contact ? c : contact_state(equations, c).delta;
     Counts counts;
     const double begin = now();

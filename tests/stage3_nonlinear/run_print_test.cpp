@@ -84,10 +84,9 @@ TEST_F(Run, ForcesHaveTheSignsThatThePageSays) {
 }
 
 TEST_F(Run, CountsOneAsOne) {
-  write({{"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"}])"}, {"increments", "2"}});
+  write({{"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"}])"}});
   run();
   EXPECT_THAT(out_.str(), StartsWith("joint: 2 plates, 1 fastener, p = 8, hybridsj\n"));
-  EXPECT_THAT(out_.str(), HasSubstr(", 1 iteration, "));
   EXPECT_THAT(out_.str(),
               HasSubstr(fmt::format("  tangent stiffness at a:P: {:.6g} ", result()["stiffness/tangent"](0, 0))));
 }

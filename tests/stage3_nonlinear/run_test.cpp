@@ -31,7 +31,7 @@ TEST_F(Run, WritesTheResult) {
   EXPECT_THAT(a.fastener_id, ElementsAre("f1", "f2"));
   EXPECT_THAT(a.load_factor, ElementsAre(0.5, 1));
   EXPECT_THAT(a.converged, ElementsAre(1, 1));
-  EXPECT_THAT(a.iterations, ElementsAre(0, 1)) << "the first guess is that of linear fasteners";
+  EXPECT_THAT(a.iterations, ElementsAre(0, 0)) << "the first guess is that of linear fasteners, the next on its line";
   EXPECT_LT(a.residual.maxCoeff(), 1e-14);
   // Symmetric lap: each fastener takes half.
   EXPECT_NEAR(a.F(1, 0), 50, 1e-11);
@@ -62,7 +62,7 @@ TEST_F(Run, PrintsATable) {
   EXPECT_EQ(log_.str(), "");
   EXPECT_THAT(out_.str(), StartsWith("joint \"lap\": 2 plates, 2 fasteners, p = 8, hybridsj\n"
                                      "the stiffness of a is known to 0.0e+00 of its largest entry\n"));
-  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 1 iteration, residual "));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 0 iterations, residual "));
   EXPECT_THAT(out_.str(), HasSubstr("  fastener           delta [in]          F [lbf]    transferred [lbf] share [%]\n"
                                     "  f1                       0.05               50                   50    50.000\n"
                                     "  f2                       0.05               50                   50    50.000\n"
