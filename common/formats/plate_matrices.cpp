@@ -137,4 +137,12 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   return a;
 }
 
+UnitCases read_unit_cases(const std::string& path) {
+  h5::Reader file(path, matrices_format);
+  UnitCases a;
+  header(file, a.header);
+  unit_case_datasets(file, a, nullptr);
+  return a;
+}
+
 }  // namespace fastjoint::formats

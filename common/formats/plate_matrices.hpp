@@ -84,4 +84,7 @@ std::string write(const std::string& path, const PlateMatrices& matrices);
 /// (external, friction, traction, errors) are empty, and omitted directions of externals are x.
 [[nodiscard]] PlateMatrices read_plate_matrices(const std::string& path);
 
+/// The same without the matrices, which may be large.
+[[nodiscard]] UnitCases read_unit_cases(const std::string& path);
+
 }  // namespace fastjoint::formats

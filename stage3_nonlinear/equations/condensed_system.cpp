@@ -3,18 +3,26 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace fastjoint::stage3 {
 namespace {
 
-MatrixXd stiffness_of_plates(const JointModel& joint) {
-  MatrixXd S = MatrixXd::Zero(joint.n_unknowns(), joint.n_unknowns());
-  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    const Index at = joint.offset(i), n = joint.plates[i].n_unknowns();
-    S.block(at, at, n, n) = joint.plates[i].S;
-  }
-  return S;
+/// Adds what one plate makes of Y^T S Y to S_ud, and of Z^T S Y to `forces`, (z, r). Only its own columns of Y have
+/// entries in its rows.
+void add_plate(const JointModel& joint, Index plate, const RigidJoint& rigid, MatrixXd& S_ud, MatrixXd& forces) {
+  const Index first = joint.offset(plate), n = joint.plates[plate].n_unknowns();
+  const RigidJoint::SparseMatrix Y = rigid.Y().middleRows(first, n), Z = rigid.Z().middleRows(first, n);
+  std::vector<Index> columns;
+  for (Index i = 0; i < Y.cols(); ++i)
+    if (Y.col(i).nonZeros() > 0) columns.push_back(i);
+  RigidJoint::SparseMatrix selected(Y.cols(), std::ssize(columns));
+  for (Index i = 0; i < std::ssize(columns); ++i) selected.insert(columns[i], i) = 1;
+  const RigidJoint::SparseMatrix own = Y * selected;
+  const MatrixXd SY = joint.plates[plate].S * own;
+  S_ud(columns, columns) += own.transpose() * SY;
+  forces(Eigen::all, columns) += Z.transpose() * SY;
 }
 
 /// Forces on all unknowns, and prescribed displacements, by a unit of each load column, (N, l) each.
@@ -36,8 +44,8 @@ std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vec
   return {loads, given};
 }
 
-/// Forces on all unknowns per unit of each amplitude of friction, (N, t).
-MatrixXd unit_friction(const JointModel& joint, const std::vector<FrictionColumn>& columns) {
+/// Forces on all unknowns per unit of some amplitudes of friction, (N, columns).
+MatrixXd unit_friction(const JointModel& joint, std::span<const FrictionColumn> columns) {
   MatrixXd G = MatrixXd::Zero(joint.n_unknowns(), std::ssize(columns));
   for (Index at = 0; at < std::ssize(columns); ++at) {
     const auto& [plate, case_at, disc] = columns[at];
@@ -162,13 +170,14 @@ VectorXd CondensedSystem::metric_times(const VectorXd& f) const {
 }
 
 CondensedSystem condense(const JointModel& joint, const Held& held) {
-  const MatrixXd S = stiffness_of_plates(joint);
   CondensedSystem system{};
-  system.rigid = RigidJoint(joint, held, S);
+  system.rigid = RigidJoint(joint, held);
   const auto& Y = system.rigid.Y();
-  const MatrixXd SY = S * Y;
-  system.half = system.rigid.half_solve(SY);
-  system.S_ud = Y.transpose() * SY;
+  const Index r = Y.cols();
+  system.S_ud.setZero(r, r);
+  MatrixXd forces = MatrixXd::Zero(system.rigid.Z().cols(), r);
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) add_plate(joint, i, system.rigid, system.S_ud, forces);
+  system.half = system.rigid.half_of(std::move(forces));
   system.S_ud.noalias() -= system.half.transpose() * system.half;
   system.held = held;
   system.load_columns = load_columns(joint, held);
@@ -176,13 +185,19 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.Q = on_planes(system, loads);
   system.Q_scale.resize(loads.cols());
   for (Index i = 0; i < loads.cols(); ++i) {
-    const VectorXd forces = loads.col(i).cwiseAbs();
-    system.Q_scale[i] = std::max((system.rigid.Z().transpose() * forces).lpNorm<Eigen::Infinity>(),
-                                 (Y.transpose() * forces).lpNorm<Eigen::Infinity>());
+    const VectorXd its = loads.col(i).cwiseAbs();
+    system.Q_scale[i] = std::max((system.rigid.Z().transpose() * its).lpNorm<Eigen::Infinity>(),
+                                 (Y.transpose() * its).lpNorm<Eigen::Infinity>());
   }
   system.D_load = given + system.rigid.moved(loads);
   system.friction = friction_layout(joint);
-  system.H = on_planes(system, unit_friction(joint, system.friction.columns));
+  const std::span columns = system.friction.columns;
+  constexpr std::size_t few = 256;  // columns at once, since there may be as many as rows
+  system.H.resize(r, std::ssize(columns));
+  for (std::size_t i = 0; i < columns.size(); i += few) {
+    const auto some = columns.subspan(i, std::min(few, columns.size() - i));
+    system.H.middleCols(static_cast<Index>(i), std::ssize(some)) = on_planes(system, unit_friction(joint, some));
+  }
   system.rim_sizes = joint.rim_sizes();
   set_reference(system, own_stiffness(joint));
   return system;

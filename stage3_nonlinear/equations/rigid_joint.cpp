@@ -117,14 +117,18 @@ MatrixXd motions_without_stiffness(const MatrixXd& S_z) {
 
 }  // namespace
 
-RigidJoint::RigidJoint(const JointModel& joint, const Held& held, const MatrixXd& S)
+RigidJoint::RigidJoint(const JointModel& joint, const Held& held)
     : Z_(free_unknowns(joint, held)), Y_(relative_motions(joint)), scale_(VectorXd::Zero(Z_.cols())) {
   VectorXd own(joint.n_unknowns());  // stiffness of the plate of each unknown
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(own_stiffness(joint.plates[i]));
   for (Index j = 0; j < Z_.outerSize(); ++j)
     for (SparseMatrix::InnerIterator at(Z_, j); at; ++at) scale_[j] = std::max(scale_[j], own[at.row()]);
-  MatrixXd S_z = Z_.transpose() * MatrixXd(S * Z_);
+  MatrixXd S_z = MatrixXd::Zero(Z_.cols(), Z_.cols());
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const SparseMatrix its = Z_.middleRows(joint.offset(i), joint.plates[i].n_unknowns());
+    S_z += its.transpose() * MatrixXd(joint.plates[i].S * its);
+  }
   for (Index i = 0; i < scale_.size(); ++i) {
     const double at = std::max(S_z(i, i), singular * scale_[i]);
     scale_[i] = 1 / std::sqrt(at > 0 ? at : 1.0);

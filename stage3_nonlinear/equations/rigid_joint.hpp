@@ -20,15 +20,15 @@ class RigidJoint {
   using SparseMatrix = Eigen::SparseMatrix<double>;
 
   RigidJoint() = default;
-  /// @param S (N, N) stiffness of all plates. @throws NumericalError naming the plates that can move freely.
-  RigidJoint(const JointModel& joint, const Held& held, const MatrixXd& S);
+  /// @throws NumericalError naming the plates that can move freely.
+  RigidJoint(const JointModel& joint, const Held& held);
 
   [[nodiscard]] const SparseMatrix& Z() const { return Z_; }  ///< (N, z) of 0 and 1
   [[nodiscard]] const SparseMatrix& Y() const { return Y_; }  ///< (N, r) of -1, 0 and 1
   /// L^-1 Z^T f of forces f on all unknowns, (N, columns), where Z^T S Z = L L^T: (z, columns).
-  [[nodiscard]] MatrixXd half_solve(const MatrixXd& f) const {
-    return factor_.matrixL().solve(scale_.asDiagonal() * MatrixXd(Z_.transpose() * f));
-  }
+  [[nodiscard]] MatrixXd half_solve(const MatrixXd& f) const { return half_of(Z_.transpose() * f); }
+  /// The same of Z^T f, (z, columns).
+  [[nodiscard]] MatrixXd half_of(const MatrixXd& f) const { return factor_.matrixL().solve(scale_.asDiagonal() * f); }
   /// Displacements Z L^-T half of all unknowns, (N, columns), length.
   [[nodiscard]] MatrixXd restore(const MatrixXd& half) const {
     return Z_ * MatrixXd(scale_.asDiagonal() * factor_.matrixU().solve(half));

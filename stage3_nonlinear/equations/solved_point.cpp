@@ -67,7 +67,7 @@ MatrixXd SolvedPoint::forces_by_c(Index rows) const {
 }
 
 void SolvedPoint::find_rows_without_slope(Slopes& slopes) const {
-  const MatrixXd F_free = forces_by_c(slopes.F.rows()) * factor_->free_motions();
+  const MatrixXd F_free = beyond_.product(&Response::dF, factor_->free_motions()).topRows(slopes.F.rows());
   for (Index i = 0; i < F_free.rows(); ++i)
     if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
 }

@@ -165,15 +165,13 @@ std::vector<Index> level_planes(const JointEquations& equations, const VectorXd&
 
 std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
   std::vector<Index> falling;
-  MatrixXd S = equations.system->S_ud;
   const Index n = equations.n_planes(), a = equations.n_directions();
-  for (Index j = 0; j < n; ++j) {
-    const Law& law = *equations.contacts[j].law;
-    if (law.rises()) continue;
-    falling.push_back(j);
-    for (Index d = 0; d < a; ++d) S(j * a + d, j * a + d) += law.min_slope();
-  }
-  if (falling.empty() || matrices::is_positive_definite(S)) return {};
+  for (Index j = 0; j < n; ++j)
+    if (!equations.contacts[j].law->rises()) falling.push_back(j);
+  if (falling.empty()) return {};
+  MatrixXd S = equations.system->S_ud;
+  for (const Index j : falling) S.diagonal().segment(j * a, a).array() += equations.contacts[j].law->min_slope();
+  if (matrices::is_positive_definite(std::move(S))) return {};
   return falling;
 }
 

@@ -17,20 +17,23 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using formats::PlateMatrices;
+/// What `read` makes of the file of a plate.
+auto read_from(const PlateScene& plate, auto read) {
+  try {
+    return read(plate.file);
+  } catch (const FileError& e) {
+    std::error_code unreachable;  // for example if the name is too long
+    const bool absent = !std::filesystem::exists(plate.file, unreachable) && !unreachable;
+    throw FileError(fmt::format("{}: {}{}", plate.where, e.what(),
+                                absent ? fmt::format("; stage2_extract PLATE.h5 -o {} makes it", plate.file) : ""));
+  }
+}
 
-std::vector<PlateMatrices> read_all(const JointScene& scene) {
-  std::vector<PlateMatrices> all;
+/// What the files of all plates say beside their matrices, which are read plate by plate.
+std::vector<formats::UnitCases> read_unit_cases(const JointScene& scene) {
+  std::vector<formats::UnitCases> all;
   for (const auto& plate : scene.plates) {
-    try {
-      all.push_back(formats::read_plate_matrices(plate.file));
-    } catch (const FileError& e) {
-      std::error_code unreachable;  // for example if the name is too long
-      const bool absent = !std::filesystem::exists(plate.file, unreachable) && !unreachable;
-      throw FileError(fmt::format("{}: {}{}", plate.where, e.what(),
-                                  absent ? fmt::format("; stage2_extract PLATE.h5 -o {} makes it", plate.file) : ""));
-    }
-    const std::string& digest = all.back().header.digest;
+    const std::string& digest = all.emplace_back(read_from(plate, formats::read_unit_cases)).header.digest;
     if (!plate.digest.empty() && digest != plate.digest)
       refuse(plate.where + "/digest",
              fmt::format("{} has {}, not the digest {}", plate.file, digest.empty() ? "none" : digest, plate.digest),
@@ -41,7 +44,7 @@ std::vector<PlateMatrices> read_all(const JointScene& scene) {
 
 std::string quoted(const Units& units) { return fmt::format("length \"{}\", force \"{}\"", units.length, units.force); }
 
-Units common_units(const JointScene& scene, const std::vector<PlateMatrices>& all) {
+Units common_units(const JointScene& scene, const std::vector<formats::UnitCases>& all) {
   const Units& units = all[0].header.units;
   for (Index i = 1; i < std::ssize(all); ++i)
     if (!(all[i].header.units == units))
@@ -53,7 +56,7 @@ Units common_units(const JointScene& scene, const std::vector<PlateMatrices>& al
 }
 
 /// @param p Degree that every plate must have, or 0 for the highest that all have.
-int common_degree(const JointScene& scene, const std::vector<PlateMatrices>& all, int p) {
+int common_degree(const JointScene& scene, const std::vector<formats::UnitCases>& all, int p) {
   std::set<int> common(all[0].p.begin(), all[0].p.end());
   std::string each;
   for (Index i = 0; i < std::ssize(all); ++i) {
@@ -242,7 +245,7 @@ std::string JointModel::short_name(const ShearPlane& plane) const {
 }
 
 JointModel load_joint(const JointScene& scene, int p) {
-  auto all = read_all(scene);
+  const auto all = read_unit_cases(scene);
   JointModel model;
   model.file = scene.file;
   model.units = common_units(scene, all);
@@ -251,7 +254,8 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (const auto& plate : scene.plates) files.push_back(plate.file);
   model.axes = joint_axes(files, all);
   for (Index i = 0; i < std::ssize(all); ++i)
-    model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
+    model.plates.push_back(make_plate(scene.plates[i].name, files[i],
+                                      read_from(scene.plates[i], formats::read_plate_matrices), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
   for (const auto& each : scene.cases) (void)parameters_of(model, scene, each);  // checks them
   return model;

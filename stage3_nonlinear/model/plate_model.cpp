@@ -190,8 +190,8 @@ std::vector<std::shared_ptr<const ContactWaves>> waves_of_rims(const formats::Pl
 /// Fixes the short waves of the rims of a plate at zero: replaces its moments d by those of ShortWaves, delta = d +
 /// C_fixed p + R_fixed tau, where p is minus the force on the moments over the area. In an isotropic sheet d = delta.
 void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ContactWaves>>& rims,
-                     PlateDegrees& degrees) {
-  MatrixXd &S = degrees.S.back(), &R = degrees.R.back(), &T = degrees.T.back();
+                     PlateDegree& at) {
+  MatrixXd &S = at.S, &R = at.R, &T = at.T;
   Index k = 0, n_shears = 0;
   bool uncoupled = true;
   for (const auto& rim : rims) {
@@ -213,7 +213,7 @@ void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::sha
   const matrices::Lu lu(softened);
   const MatrixXd of_S = lu.solve(S.bottomRows(k)), of_R = lu.solve(R.bottomRows(k)), of_T = lu.solve(T.bottomRows(k));
   const Index n = S.rows() - k;
-  degrees.C.back() -= T.bottomRows(k).transpose() * C * of_T;
+  at.C -= T.bottomRows(k).transpose() * C * of_T;
   const MatrixXd forward = S.topRightCorner(n, k) * C;
   S.topRows(n) += forward * of_S;
   R.topRows(n) += forward * of_R;
@@ -230,10 +230,10 @@ void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::sha
 /// section 6.3). What ShortWaves::moved says is taken from their compliance (section 6.8). The shears of these rims
 /// follow the friction cases in R.
 void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level,
-               const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves, PlateDegrees& degrees) {
-  const Index n = degrees.S.back().rows();
+               const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves, PlateDegree& at) {
+  const Index n = at.S.rows();
   if (a.contact.empty()) return;
-  const RimMatrices rims = rim_matrices(a, level);
+  RimMatrices rims = rim_matrices(a, level);
   const Index k = rims.C.rows();
   VectorXd springs(k), scale(k);
   Index row = 0;
@@ -246,7 +246,7 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
     row += n_long;
   }
   const MatrixXd& B = rims.B;
-  MatrixXd compliance = rims.C;
+  MatrixXd& compliance = rims.C;
   compliance.diagonal() -= moved_of(a, contact_waves);
   auto inverse = matrices::inverse_of_positive(compliance);
   constexpr double max_ratio = 1e6;  // to the stiffness of the springs
@@ -256,65 +256,56 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   }
   if (!inverse) throw FileError(file + ":W: the compliance under unit pressures is not positive definite");
   const MatrixXd& stiffness = *inverse;
+  compliance.resize(0, 0);  // these matrices are the largest of a run
   const MatrixXd by_motion = stiffness * B, by_traction = stiffness * rims.T;
-  const auto extended = [&](MatrixXd& load, const MatrixXd& moments) {
-    const MatrixXd by_load = stiffness * moments;
-    load += B.transpose() * by_load;
-    load = stacked(load, -(scale.asDiagonal() * by_load));
+  const auto extended = [&](const MatrixXd& load, const MatrixXd& of_rims, const MatrixXd& moments,
+                            const MatrixXd& moments_of_rims) {
+    MatrixXd all(n + k, load.cols() + of_rims.cols());
+    all << load, of_rims, moments, moments_of_rims;
+    all.bottomRows(k) = (stiffness * all.bottomRows(k)).eval();
+    all.topRows(n).noalias() += B.transpose() * all.bottomRows(k);
+    all.bottomRows(k) = -(scale.asDiagonal() * all.bottomRows(k));
+    return all;
   };
-  degrees.C.back() -= rims.T.transpose() * by_traction;
-  MatrixXd R(n, degrees.R.back().cols() + rims.R.cols()), R_p(k, R.cols());
-  R << degrees.R.back(), rims.R;
-  R_p << rims.R_f, rims.R_p;
-  extended(R, R_p);
-  degrees.R.back() = std::move(R);
-  extended(degrees.T.back(), rims.T);
+  at.C -= rims.T.transpose() * by_traction;
+  at.R = extended(at.R, rims.R, rims.R_f, rims.R_p);
+  at.T = extended(at.T, MatrixXd(n, 0), rims.T, MatrixXd(k, 0));
   MatrixXd S(n + k, n + k);
   const auto D = scale.asDiagonal();
-  S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose() * D, -(D * by_motion), D * stiffness * D;
+  S << at.S + B.transpose() * by_motion, -by_motion.transpose() * D, -(D * by_motion), D * stiffness * D;
   S.diagonal().tail(k) -= springs;
-  degrees.S.back() = std::move(S);
-  fix_short_waves(a, contact_waves, degrees);
+  at.S = std::move(S);
+  fix_short_waves(a, contact_waves, at);
 }
 
 /// Adds rows and columns for the displacements of discs that the file does not have, since symmetry fixes them. They
 /// are uncoupled from the others and have a stiffness of their own but no force, so that they stay zero.
-void add_fixed_discs(const PlateModel& plate, PlateDegrees& degrees) {
+void add_fixed_discs(const PlateModel& plate, PlateDegree& at) {
   const Index n_file = std::ssize(plate.discs), more = plate.n_disc_unknowns() - n_file;
   if (more == 0) return;
-  const Index n = degrees.S.back().rows() + more;
+  const Index n = at.S.rows() + more;
   std::vector<Index> place(plate.discs);
   for (Index i = plate.n_disc_unknowns(); i < n; ++i) place.push_back(i);
-  for (MatrixXd& S : degrees.S) {
-    MatrixXd all = S.diagonal().head(n_file).maxCoeff() * MatrixXd::Identity(n, n);
-    for (const Index i : place) all(i, i) = 0;
-    all(place, place) = S;
-    S = std::move(all);
+  MatrixXd S = at.S.diagonal().head(n_file).maxCoeff() * MatrixXd::Identity(n, n);
+  for (const Index i : place) S(i, i) = 0;
+  S(place, place) = at.S;
+  at.S = std::move(S);
+  for (MatrixXd* load : {&at.R, &at.T}) {
+    MatrixXd all = MatrixXd::Zero(n, load->cols());
+    all(place, Eigen::all) = *load;
+    *load = std::move(all);
   }
-  for (auto* loads : {&degrees.R, &degrees.T})
-    for (MatrixXd& load : *loads) {
-      MatrixXd all = MatrixXd::Zero(n, load.cols());
-      all(place, Eigen::all) = load;
-      load = std::move(all);
-    }
 }
 
 /// The lowest of the degrees that are used besides one: no error estimate needs more than four.
 Index first_degree(Index level) { return std::max<Index>(level - 3, 0); }
 
-PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level,
-                           const std::vector<std::shared_ptr<const ContactWaves>>& contact_waves) {
-  const Index first = first_degree(level), n = level + 1 - first;
-  PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
-  for (Index i = first; i <= level; ++i) {
-    degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
-    degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
-    degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
-    degrees.C.push_back(a.C_t[i]);
-    free_rims(file, a, i, contact_waves, degrees);
-  }
-  degrees.R.erase(degrees.R.begin(), degrees.R.end() - std::min<Index>(std::ssize(degrees.R), 2));
-  return degrees;
+PlateDegree degree_of(const std::string& file, const formats::PlateMatrices& a, Index level, const PlateModel& plate) {
+  PlateDegree at{a.p[level], joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]), stacked(a.R_df[level], a.R_ef[level]),
+                 stacked(a.T_d[level], a.T_e[level]), a.C_t[level]};
+  free_rims(file, a, level, plate.contact_waves, at);
+  add_fixed_discs(plate, at);
+  return at;
 }
 
 /// JSON text of the materials in the text of a PLATE.json; empty if that is not known.
@@ -331,7 +322,7 @@ std::optional<rim::SignedAxis> bearing_side(const std::string& name) {
   return known ? std::optional(rim::signed_axis_named(name)) : std::nullopt;
 }
 
-std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::PlateMatrices> all) {
+std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::UnitCases> all) {
   std::set<int> found;
   std::vector<int> of_one_hole;  // the order is that of a hole with both directions: a half hole has only one
   for (Index i = 0; i < std::ssize(all); ++i) {
@@ -359,25 +350,27 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.name = name;
   plate.file = file;
   plate.materials = materials_in(a.header.input);
-  plate.axes = axes.empty() ? joint_axes({&file, 1}, {&a, 1}) : axes;
+  const formats::UnitCases& own = a;
+  plate.axes = axes.empty() ? joint_axes({&file, 1}, {&own, 1}) : axes;
   place_discs(file, a, plate);
   check_contact(file, a, plate);
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
   plate.contact_waves = waves_of_rims(a, first_degree(level), level);
-  plate.degrees = degrees_up_to(file, a, level, plate.contact_waves);
-  add_fixed_discs(plate, plate.degrees);
-  plate.S = plate.degrees.S.back();
-  plate.R = plate.degrees.R.back();
-  plate.T = plate.degrees.T.back();
+  for (Index i = first_degree(level); i < level; ++i) {
+    plate.lower.push_back(degree_of(file, a, i, plate));
+    if (i + 1 == level) continue;
+    plate.lower.back().R.resize(0, 0);
+    if (!a.W.empty()) a.W[i].resize(0, 0);  // may be as large as all that is kept
+  }
+  static_cast<PlateDegree&>(plate) = degree_of(file, a, level, plate);
   check_not_negative(file, a, joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]), plate.S);
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_axis = traction_axes(file, a);
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
-  if (plate.S_error.rows() != plate.S.rows()) plate.S_error.resizeLike(plate.S);
-  if (level + 1 < a.p.size() || plate.S.rows() > a.n_discs() + a.n_externals())
-    plate.S_error.setConstant(std::numeric_limits<double>::infinity());
+  if (level + 1 < a.p.size() || plate.S_error.rows() != plate.S.rows() || !plate.S_error.allFinite())
+    plate.S_error.resize(0, 0);
   formats::PlateProperties& properties = a;  // without the matrices by degree
   static_cast<formats::PlateProperties&>(plate) = std::move(properties);
   plate.header.input.clear();

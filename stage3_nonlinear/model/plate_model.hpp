@@ -23,12 +23,13 @@ using Eigen::VectorXd;
 /// Side of a hole that bears, by its name in files; none for other texts, such as "" for edges.
 [[nodiscard]] std::optional<rim::SignedAxis> bearing_side(const std::string& name);
 
-/// The matrices of a plate at its last degrees up to that of the joint, ascending; S, T, R are those of PlateModel.
-struct PlateDegrees {
-  Eigen::VectorXi p;
-  std::vector<MatrixXd> S, T;
-  std::vector<MatrixXd> C;  ///< (q, q) C_t, length / force
-  std::vector<MatrixXd> R;  ///< only those of the last two degrees
+/// The matrices of a plate at one degree.
+struct PlateDegree {
+  int degree = 0;
+  MatrixXd S;  ///< (m+e+k, m+e+k), force / length
+  MatrixXd R;  ///< (m+e+k, h + s) by friction cases, then by the shears of rims of contact, length^2
+  MatrixXd T;  ///< (m+e+k, q), dimensionless
+  MatrixXd C;  ///< (q, q) C_t, length / force
 };
 
 /// A plate at one degree p. Its unknowns u are the displacements of its m discs, hole after hole, those of its e rigid
@@ -38,20 +39,19 @@ struct PlateDegrees {
 /// the springs of a rim of contact: the force that they transmit is minus the force on its moments.
 ///
 /// What its file says beside the matrices is as it stands there, `cracks` at the joint's degree alone.
-struct PlateModel : formats::PlateProperties {
+struct PlateModel : formats::PlateProperties, PlateDegree {
   std::string name, file;
-  std::string materials;           ///< JSON text of them in its PLATE.json; empty if unknown
-  std::vector<std::string> holes;  ///< (m / a)
-  std::vector<int> axes;           ///< (a) directions of each hole's discs in order: 0 x, 1 y
-  std::vector<Index> discs;        ///< of m, those in the file: symmetry fixes the others
-  std::vector<bool> on_springs;    ///< (m / a) the plate's own bearing is in S
-  MatrixXd S;                      ///< (m+e+k, m+e+k), force / length
-  MatrixXd R;  ///< (m+e+k, h + s) by friction cases, then by the shears of rims of contact, length^2
-  MatrixXd T;  ///< (m+e+k, q), dimensionless
+  std::string materials;                          ///< JSON text of them in its PLATE.json; empty if unknown
+  std::vector<std::string> holes;                 ///< (m / a)
+  std::vector<int> axes;                          ///< (a) directions of each hole's discs in order: 0 x, 1 y
+  std::vector<Index> discs;                       ///< of m, those in the file: symmetry fixes the others
+  std::vector<bool> on_springs;                   ///< (m / a) the plate's own bearing is in S
   std::vector<int> external_axis, traction_axis;  ///< (e), (q) 0 x, 1 y; any of a moment
   std::vector<int> unsupported_axes;              ///< axes along which no support of stage 1 reacts
-  PlateDegrees degrees;                           ///< their sequence shows the error of S
-  MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
+  /// Lower degrees, ascending, whose sequence shows the error of S; R at the last alone.
+  std::vector<PlateDegree> lower;
+  /// (m+e+k, m+e+k) from the file; empty if it has none that is finite, or p is not its highest degree.
+  MatrixXd S_error;
   std::optional<int> stress_level;  ///< of the stresses at the joint's degree, if there are any
   std::vector<std::shared_ptr<const ContactWaves>> contact_waves{};  ///< (g) the waves of higher order, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};    ///< of each of `waves`, if it has stresses
@@ -109,7 +109,6 @@ struct PlateModel : formats::PlateProperties {
 
 /// Directions of the discs of all files, in the order of the first hole that has both, else x before y; 0 x, 1 y.
 /// Throws FileError for a word that is no direction.
-[[nodiscard]] std::vector<int> joint_axes(std::span<const std::string> files,
-                                          std::span<const formats::PlateMatrices> all);
+[[nodiscard]] std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::UnitCases> all);
 
 }  // namespace fastjoint::stage3

@@ -29,7 +29,7 @@ JointNeed joint_need(const JointModel& joint, const Parameters& parameters, bool
   const JointNumbers numbers = joint_numbers(joint, parameters);
   double of_plane = with_csv ? 76 : 0;  // a line of the table has about 900 bytes in two copies
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
-  constexpr double number = sizeof(double), of_stiffness = 24, of_plate = 30;  // of a plate's state
+  constexpr double number = sizeof(double), of_stiffness = 12, of_plate = 30;  // of a plate's state
   constexpr double of_spots = 2 * 3 * TractionWaves::n_points;                 // extremes of a case, and of all
   constexpr double of_points = 3 * 360,
                    of_loaded_rim = 600;  // stresses, and the waves and tractions that they follow from

@@ -49,7 +49,7 @@ const std::string& method(const JointScene& scene, const JointModel& joint) {
 /// Estimated error of a plate's S over its largest entry; none if the file has no estimate, p is not its highest
 /// degree, or S is zero.
 std::optional<double> relative_error(const PlateModel& plate) {
-  if (!plate.S_error.allFinite() || plate.S.isZero(0)) return std::nullopt;
+  if (plate.S_error.size() == 0 || plate.S.isZero(0)) return std::nullopt;
   return plate.S_error.cwiseAbs().maxCoeff() / plate.S.cwiseAbs().maxCoeff();
 }
 

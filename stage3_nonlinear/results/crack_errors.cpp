@@ -12,8 +12,9 @@ namespace {
 
 /// True if all plates have a degree.
 bool has_degree(const JointModel& joint, int p) {
-  return std::ranges::all_of(joint.plates,
-                             [&](const PlateModel& plate) { return (plate.degrees.p.array() == p).any(); });
+  return std::ranges::all_of(joint.plates, [&](const PlateModel& plate) {
+    return plate.degree == p || std::ranges::count(plate.lower, p, &PlateDegree::degree) > 0;
+  });
 }
 
 /// States at the load factors of a case's path at another degree; empty if not all of them converge.

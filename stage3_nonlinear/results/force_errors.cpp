@@ -10,7 +10,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
+bool is_known(const PlateModel& plate) { return !plate.lower.empty() || plate.S_error.size() > 0; }
 
 /// Errors of all forces by one plate, (n).
 /// @param w (m + e + k, n) change of each force per unit of the force on each unknown.
@@ -18,21 +18,21 @@ VectorXd plate_errors(const PlateModel& plate, const Eigen::Ref<const MatrixXd>&
   VectorXd u(plate.n_unknowns());
   u << state.D, state.De, state.moments;
   const VectorXd& f = state.traction;
-  const PlateDegrees& degrees = plate.degrees;
-  const auto n = degrees.S.size();
-  if (n < 2) return w.cwiseAbs().transpose() * (plate.S_error * u.cwiseAbs());
-  constexpr double of_bound = 0.25;                  // min error over the bound by energies
-  const auto load = [&](Index before) -> VectorXd {  // at a degree before the last
-    const auto R = degrees.R.rbegin() + before;
-    return degrees.S[n - 1 - before] * u + degrees.T[n - 1 - before] * f + *R * state.Lambda;
-  };
-  VectorXd energy(degrees.p.size());  // u . S u + 2 u . T f - f . C f at every degree
-  for (Index i = 0; i < std::ssize(energy); ++i)
-    energy[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
-  const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
-  const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
-  const VectorXd change = w.transpose() * (load(1) - load(0));
-  const MatrixXd by_w = (degrees.S[n - 2] - degrees.S[n - 1]) * w;
+  if (plate.lower.empty()) return w.cwiseAbs().transpose() * (plate.S_error * u.cwiseAbs());
+  constexpr double of_bound = 0.25;  // min error over the bound by energies
+  const auto load = [&](const PlateDegree& at) -> VectorXd { return at.S * u + at.T * f + at.R * state.Lambda; };
+  const Index n = std::ssize(plate.lower);
+  VectorXd energy(n + 1);  // u . S u + 2 u . T f - f . C f at every degree
+  Eigen::VectorXi p(n + 1);
+  for (Index i = 0; i <= n; ++i) {
+    const auto& at = i < n ? plate.lower[i] : static_cast<const PlateDegree&>(plate);
+    energy[i] = u.dot(at.S * u) + 2 * u.dot(at.T * f) - f.dot(at.C * f);
+    p[i] = at.degree;
+  }
+  const double fall = std::abs(energy[n - 1] - energy[n]);
+  const double more = fall > 0 ? matrices::extrapolated_error(energy, p) / fall : 1;
+  const VectorXd change = w.transpose() * (load(plate.lower.back()) - load(plate));
+  const MatrixXd by_w = (plate.lower.back().S - plate.S) * w;
   const VectorXd fall_by_w = w.cwiseProduct(by_w).colwise().sum().transpose().cwiseAbs();
   return more * (change.cwiseAbs2() + of_bound * of_bound * fall * fall_by_w).cwiseSqrt();
 }

@@ -94,8 +94,7 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, co
   if (state.Lambda.size() > 0) required += plate.R * state.Lambda;
   const Index q = state.traction.size();
   state.traction_displacement.setConstant(q, std::numeric_limits<double>::infinity());
-  const bool has_compliance = !plate.degrees.C.empty() && plate.degrees.C.back().rows() == q;
-  if (q > 0 && has_compliance && state.Lambda.isZero(0))
+  if (q > 0 && plate.C.rows() == q && state.Lambda.isZero(0))
     state.traction_displacement = traction_displacements(plate, u, state.traction);
   state.bearing = on_discs;
   state.friction = VectorXd::Zero(m);
@@ -218,7 +217,7 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
 }
 
 VectorXd traction_displacements(const PlateModel& plate, const VectorXd& u, const VectorXd& f) {
-  return plate.degrees.C.back() * f - plate.T.transpose() * u;
+  return plate.C * f - plate.T.transpose() * u;
 }
 
 JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {

@@ -92,7 +92,7 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
   body.R = MatrixXd::Zero(body.S.rows(), kind.n_holes * pressures.n_shears());
   body.T = MatrixXd::Zero(body.S.rows(), 0);
   if (kind.mu > 0) add_shears(random, H, G, body);
-  body.degrees = {Eigen::VectorXi::Constant(1, 8), {body.S}, {body.R}, {body.T}, {MatrixXd::Zero(0, 0)}};
+  body.degree = 8;
   body.S_error = MatrixXd::Zero(body.S.rows(), body.S.rows());
   return body;
 }

@@ -145,8 +145,8 @@ TEST(JointModel, TakesTheHighestCommonDegreeOrTheOneAskedFor) {
   EXPECT_EQ(load(lap).p, 7);
   EXPECT_EQ(load(lap, {}, 6).p, 6);
   EXPECT_DOUBLE_EQ(load(lap, {}, 6).plates[0].S(0, 0), 6 * a(0, 0));
-  EXPECT_FALSE(load(lap, {}, 6).plates[0].S_error.allFinite()) << "the estimate is for the highest degree";
-  EXPECT_TRUE(load(lap).plates[0].S_error.allFinite());
+  EXPECT_EQ(load(lap, {}, 6).plates[0].S_error.size(), 0) << "the estimate is for the highest degree";
+  EXPECT_GT(load(lap).plates[0].S_error.size(), 0);
   EXPECT_THAT([&] { (void)load(lap, {}, 8); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("--p: 8 is not in the matrices of every plate of"),
                                               HasSubstr("joint.json; allowed: 6, 7"))));

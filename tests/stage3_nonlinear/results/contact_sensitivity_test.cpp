@@ -28,7 +28,7 @@ PlateModel under_traction(PlateModel plate) {
   plate.T = S(rest, {e}) / S_ee;
   plate.S = S(rest, rest) - S(rest, {e}) * S({e}, rest) / S_ee;
   plate.R = MatrixXd::Zero(n - 1, 0);
-  plate.degrees = {plate.degrees.p, {plate.S}, {plate.T}, {MatrixXd::Constant(1, 1, 1 / S_ee)}, {plate.R}};
+  plate.C.setConstant(1, 1, 1 / S_ee);
   plate.S_error = MatrixXd::Zero(n - 1, n - 1);
   plate.traction_id = std::exchange(plate.external_id, {});
   plate.traction_axis = std::exchange(plate.external_axis, {});

@@ -102,11 +102,9 @@ TEST(ForceError, CoversTheChangeOfRandomJoints) {
       const MatrixXd S = plate.S;
       const double factor = 1 + 1e-6 * (1 + static_cast<double>(i));
       stiffer.plates[i].S = factor * S;
-      plate.degrees.p = Eigen::VectorXi::LinSpaced(2, 7, 8);
-      plate.degrees.S = {factor * S, S};
-      plate.degrees.R = {plate.R, plate.R};
-      plate.degrees.T = {plate.T, plate.T};
-      plate.degrees.C.assign(2, MatrixXd::Zero(plate.T.cols(), plate.T.cols()));
+      plate.degree = 8;
+      plate.C.setZero(plate.T.cols(), plate.T.cols());
+      plate.lower = {{7, factor * S, plate.R, plate.T, plate.C}};
     }
     const auto equations = make_equations(joint);
     const stage3::PathOptions tight{{}, {.tolerance = 1e-13}};
