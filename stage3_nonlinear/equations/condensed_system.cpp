@@ -177,7 +177,7 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   system.S_ud.setZero(r, r);
   MatrixXd forces = MatrixXd::Zero(system.rigid.Z().cols(), r);
   for (Index i = 0; i < std::ssize(joint.plates); ++i) add_plate(joint, i, system.rigid, system.S_ud, forces);
-  system.half = system.rigid.half_of(std::move(forces));
+  system.half = system.rigid.half_of(forces);
   system.S_ud.noalias() -= system.half.transpose() * system.half;
   system.held = held;
   system.load_columns = load_columns(joint, held);

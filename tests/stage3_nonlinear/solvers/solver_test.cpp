@@ -101,6 +101,20 @@ TEST(Newton, EndsWhereTheResidualStandsStill) {
   EXPECT_LT(root.iterations, 30);
 }
 
+/// A force that grows as the depth to the power of 1.5 and is 0 at the root, beside one that is solved at once: whole
+/// steps alone would take 17.
+TEST(Newton, LeavesContactInFewSteps) {
+  const RootProblem touching{
+      [](const VectorXd& x) -> VectorXd { return Vector2d(std::pow(std::max(x[0], 0.0), 1.5), x[1] - 2 * x[0]); },
+      [](const VectorXd& x) -> Eigen::MatrixXd {
+        return Matrix2d{{1.5 * std::sqrt(std::max(x[0], 1e-30)), 0}, {-2, 1}};
+      },
+      {}};
+  const Root root = newton_root(touching, Vector2d(1, 1), root_options);
+  EXPECT_TRUE(root.converged);
+  EXPECT_LE(root.iterations, 6);
+}
+
 TEST_P(Solves, LetsExceptionsOut) {
   const RootProblem throwing{
       [](const VectorXd&) -> VectorXd { throw std::runtime_error("from inside"); }, rosenbrock.jacobian, {}};
