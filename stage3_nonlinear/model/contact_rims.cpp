@@ -183,7 +183,7 @@ int ContactWaves::order(double gap, double mu, double force) const {
   // Half the arc on which two half-planes of the rims' compliance touch (Hertz), at most that of a disc without a gap.
   double half_arc = std::numbers::pi / 2;
   if (gap > 0 && force > 0) half_arc = std::min(half_arc, 2 * std::sqrt(force * fewest_->fall / (contact_.area * gap)));
-  constexpr double per_arc = 20, with_friction = 75, most_by_friction = 64;  // for the aims of section 6.8
+  constexpr double per_arc = 20, with_friction = 50, most_by_friction = 48;  // for the aims of section 6.8
   double needed = per_arc / half_arc;
   if (mu > 0 && is_stiff()) needed = std::max(needed, std::min(with_friction / half_arc, most_by_friction));
   needed = std::min(needed, double(highest_order));

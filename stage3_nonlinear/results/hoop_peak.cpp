@@ -43,8 +43,16 @@ class PeakSearch {
                 nearest = static_cast<Index>(std::floor(peak->angle / rim::full_turn * double(n))) % n;
     VectorXd at_points =
         VectorXd::NullaryExpr(n, [&](Index i) { return is_allowed(hoop.angles[i]) ? hoop.values[i] : std::nan(""); });
-    at_points[(nearest + n) % n] = peak->value;
-    return HoopPeak{peak->value, turn(peak->angle / rim::degree), error(hoop, *peak, tractions), at_points};
+    double value = peak->value, bar = error(hoop, *peak, tractions);
+    const bool is_root = rim_.has_root_at_end && distance_ == 0;
+    if (rim_.in_contact && (is_root || std::isfinite(bar))) {
+      constexpr double of_known_rate = 0.25;  // an extrapolated peak is right to a tenth of the change, rarely a fifth
+      const double further = by_further_waves(*peak);
+      if (is_root) value += further;
+      bar += (is_root ? of_known_rate : 1) * std::abs(further);
+    }
+    at_points[(nearest + n) % n] = value;
+    return HoopPeak{value, turn(peak->angle / rim::degree), bar, at_points};
   }
 
  private:
@@ -129,9 +137,14 @@ class PeakSearch {
                                 [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= excluded; });
   }
 
-  /// Sum of twice the change from the degree below, the extrapolated change by all further orders, from that by the
-  /// last two or four pairs of orders, and in contact that of the peak by all further waves, from that by fewer waves
-  /// (docs/theory.md, section 11.4).
+  /// Extrapolated change of a peak in contact by all further waves, from that by fewer waves.
+  [[nodiscard]] double by_further_waves(const Peak& peak) const {
+    const auto other = top(curve(0, rim_.rim.waves, rim_.traction_waves(rim_.by_fewer)), rim_.kinks_by_fewer);
+    return other ? rim_.beyond * (peak.value - other->value) : 0;
+  }
+
+  /// Sum of twice the change from the degree below, and the extrapolated change by all further orders, from that by the
+  /// last two or four pairs of orders (docs/theory.md, section 11.4). Infinite if it is not known.
   [[nodiscard]] double error(const Curve& hoop, const Peak& peak,
                              const std::shared_ptr<const TractionWaves>& tractions) const {
     const rim::Harmonics& all = rim_.rim.waves;
@@ -150,11 +163,7 @@ class PeakSearch {
     }
     const double fastest = std::pow(0.1, n), slowest = std::pow(0.8, n);
     const double fall = std::clamp(changed[1] > 0 ? changed[0] / changed[1] : slowest, fastest, slowest);
-    double by_waves = 0;
-    if (rim_.in_contact)
-      if (const auto other = top(curve(0, all, rim_.traction_waves(rim_.by_fewer)), rim_.kinks_by_fewer))
-        by_waves = std::abs(other->value - peak.value);
-    return 2 * by_degree + changed[0] * fall / (1 - fall) + rim_.beyond * by_waves;
+    return 2 * by_degree + changed[0] * fall / (1 - fall);
   }
 
   /// Change of the hoop stress at the points if orders first..end-1 followed from the tractions.

@@ -219,7 +219,8 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
       }
       loaded->beyond = infinite;
       if (fewer) {
-        const double rate = plate.contact_waves[i]->is_stiff() && all.mu > 0 ? 0.5 : 1.5;
+        loaded->has_root_at_end = plate.contact_waves[i]->is_stiff() && all.mu > 0;
+        const double rate = loaded->has_root_at_end ? 0.5 : 1.5;
         loaded->beyond = 1 / (std::pow(double(all.shape.highest) / fewer->shape.highest, rate) - 1);
         loaded->kinks_by_fewer = fewer->ends;
         loaded->by_fewer = of_contact(contacts[i], *fewer);

@@ -32,6 +32,7 @@ struct LoadedRim {
   /// with friction on an elastic disk the stress is like a square root at the end of contact, and it falls as N^-1/2.
   /// Infinite if there are no fewer waves.
   double beyond = 0;
+  bool has_root_at_end = false;  ///< the peak falls so as N^-1/2, and is extrapolated
   VectorXd slip{};        ///< all waves of the tangential displacement of the disc relative to the sheet, length; none
                           ///< without friction and of a rim that sticks
   rim::Harmonics all{1};  ///< its shears are the waves of `slip`

@@ -102,21 +102,6 @@ def stiff_springs(folder):
             near("  its error bar", found["bar"][0], disk["bar"][0], 0.1 if mu == 0 else 0.3)
 
 
-def elastic_pins_with_friction(folder):
-    """The bar of the peak, which comes as N^-1/2 at the end of contact, holds what 200 waves and the rate leave."""
-    for mu in (0.15, 0.3):
-        peak, bar = {}, {}
-        for n in (64, 128, 200):
-            pin = {"disk": {"E": 70e3, "nu": 0.3, "law": "elastic"}, "harmonics": n}
-            solve = pin_in_a_wide_sheet(folder, {"E": 70e3, "nu": 0.3}, pin, WIDE, friction=mu)
-            found = solve(0)
-            peak[n], bar[n] = found["hoop"][0], found["bar"][0]
-        truth = peak[200] + (peak[200] - peak[128]) / ((200 / 128)**0.5 - 1)
-        near(f"elastic pin with friction {mu}: hoop stress by 64 waves", peak[64], truth, 0.03, bar[64])
-        for n in peak:
-            assert truth - peak[n] < bar[n], (mu, n, truth, peak, bar)
-
-
 def friction_against_slip(folder):
     """Degrees on which friction acts against the slip, without gap and with one: none by springs at 0.15, as the paper has it; an elastic disk
     of the sheet's material slips less, and sticks the more the larger friction is."""
@@ -170,8 +155,20 @@ def pressed_in_disk(folder):
     near("  half-angle of contact, degrees", found["half-angle"][0], 180, 0, absolute=True)
 
 
+def waves_with_friction(folder):
+    """At the end of contact with an elastic pin and friction the hoop stress is like a square root. Peaks fall as N^-1/2 and are
+    extrapolated so: they hardly depend on the number of waves, and the bars hold."""
+    for friction in (0.15, 0.3):
+        found = {}
+        for waves in (128, 64, 48, 32, 24, None):
+            pin = {"disk": {"E": 110e3, "nu": 0.3, "law": "elastic"}, **({"harmonics": waves} if waves else {})}
+            found[waves] = pin_in_a_wide_sheet(folder, {"E": 70e3, "nu": 0.3}, pin, WIDE, friction=friction)(0)
+            bar, truth = found[waves]["bar"][0], found[128]["hoop"][0]
+            near(f"friction {friction}, {waves or 'default'} waves: hoop stress", found[waves]["hoop"][0], truth, min(5e-3, 1.5 * bar / truth), bar)
+
+
 with tempfile.TemporaryDirectory() as name:
-    for check in (rigid_pins_in_strips, elastic_pins, stiff_springs, elastic_pins_with_friction, friction_against_slip, pressed_in_disk,
+    for check in (rigid_pins_in_strips, elastic_pins, stiff_springs, waves_with_friction, friction_against_slip, pressed_in_disk,
                   isotropic_pins, plane_strain_pin, laminate_pins):
         check(Path(name))
 end_if_missed()
