@@ -9,22 +9,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Adds what one plate makes of Y^T S Y to S_ud, and of Z^T S Y to `forces`, (z, r). Only its own columns of Y have
-/// entries in its rows.
-void add_plate(const JointModel& joint, Index plate, const RigidJoint& rigid, MatrixXd& S_ud, MatrixXd& forces) {
-  const Index first = joint.offset(plate), n = joint.plates[plate].n_unknowns();
-  const RigidJoint::SparseMatrix Y = rigid.Y().middleRows(first, n), Z = rigid.Z().middleRows(first, n);
-  std::vector<Index> columns;
-  for (Index i = 0; i < Y.cols(); ++i)
-    if (Y.col(i).nonZeros() > 0) columns.push_back(i);
-  RigidJoint::SparseMatrix selected(Y.cols(), std::ssize(columns));
-  for (Index i = 0; i < std::ssize(columns); ++i) selected.insert(columns[i], i) = 1;
-  const RigidJoint::SparseMatrix own = Y * selected;
-  const MatrixXd SY = joint.plates[plate].S * own;
-  S_ud(columns, columns) += own.transpose() * SY;
-  forces(Eigen::all, columns) += Z.transpose() * SY;
-}
-
 /// Forces on all unknowns, and prescribed displacements, by a unit of each load column, (N, l) each.
 std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vector<LoadColumn>& columns) {
   MatrixXd loads = MatrixXd::Zero(joint.n_unknowns(), std::ssize(columns)), given = loads;
@@ -176,7 +160,13 @@ CondensedSystem condense(const JointModel& joint, const Held& held) {
   const Index r = Y.cols();
   system.S_ud.setZero(r, r);
   MatrixXd forces = MatrixXd::Zero(system.rigid.Z().cols(), r);
-  for (Index i = 0; i < std::ssize(joint.plates); ++i) add_plate(joint, i, system.rigid, system.S_ud, forces);
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    const RigidJoint::SparseMatrix own = Y.middleRows(joint.offset(i), plate.n_unknowns());
+    const MatrixXd SY = plate.S * own;
+    system.S_ud.noalias() += own.transpose() * SY;
+    forces.noalias() += system.rigid.Z().middleRows(joint.offset(i), plate.n_unknowns()).transpose() * SY;
+  }
   system.half = system.rigid.half_of(forces);
   system.S_ud.noalias() -= system.half.transpose() * system.half;
   system.held = held;

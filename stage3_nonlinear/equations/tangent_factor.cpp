@@ -81,8 +81,8 @@ TangentFactor::TangentFactor(const CondensedSystem& system, ContactState state)
   is_singular_ = !(lu_.rcond() * std::min(1.0, lu_.norm()) > singular_tangent);
 }
 
-/// With J = U s V^T, null spaces L in U and R in V, the product of J's other eigenvalues has the sign of det U det V
-/// det L^T R, and J + L R^T that of det U det V.
+/// Let J = U s V^T, where columns L of U and R of V span the null spaces. The determinant of J + L R^T has the sign of
+/// det U det V, and the product of the other eigenvalues of J has that sign times the sign of det L^T R.
 bool TangentFactor::is_negative() const {
   const auto its = [](const ShortWaves& rim) { return rim.block.is_negative(); };
   bool negative = std::ranges::count_if(short_waves_, its) % 2 == 1;

@@ -215,21 +215,17 @@ bool Walk::solve_from_guesses(double target) {
   for (const InitialScene& guess : guesses)
     starts.emplace_back([&, guess] { return first_guess(equations_, guess, target); });
   starts.insert(here_.load_factor != 0 || !here_.c.isZero(0) ? starts.begin() : starts.end(), [&] { return here_.c; });
-  if (starts_without_friction())
-    starts.insert(starts.begin(), [&, first = starts.front()] { return frictionless_start(*first(), target); });
+  starts.insert(starts.begin(), [&, first = starts.front()] { return frictionless_start(first, target); });
   for (const InitialScene& guess : guesses)  // starts at large coordinates, for a solution that the others do not reach
     if (may_snap_) starts.emplace_back([&, guess]() -> VectorXd { return 4 * first_guess(equations_, guess, target); });
   return solve_from(starts, target) || (!is_known_beyond_limit(target) && solve_with_lagged_friction(target));
 }
 
-bool Walk::starts_without_friction() const {
+std::optional<VectorXd> Walk::frictionless_start(const Start& from, double target) {
   const bool all_gaps = std::ranges::all_of(equations_.rims, [](const auto& rim) { return rim->contact().gap() > 0; });
-  return !equations_.rims.empty() && all_gaps && equations_.has_friction && equations_.rises;
-}
-
-std::optional<VectorXd> Walk::frictionless_start(const VectorXd& start, double target) {
+  if (equations_.rims.empty() || !all_gaps || !equations_.has_friction || !equations_.rises) return std::nullopt;
   const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
-  const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);
+  const Root root = run(root_problem(equations_, target, scale_, &at_rest), *from(), newton_root);
   if (!root.converged) return std::nullopt;
   return scale_ * root.x;
 }

@@ -68,10 +68,8 @@ class Walk {
   bool solve_from(const std::vector<Start>& starts, double target);
   /// The last solution, or that on the straight line through it and the one before if this leaves less residual.
   [[nodiscard]] VectorXd predicted(double target) const;
-  /// True if all rims have gaps: the solution without friction is then a good start for that with friction.
-  [[nodiscard]] bool starts_without_friction() const;
-  /// That solution, if it is found.
-  std::optional<VectorXd> frictionless_start(const VectorXd& start, double target);
+  /// Solution without friction of a joint whose rims all have gaps, which is a good start for that with friction.
+  std::optional<VectorXd> frictionless_start(const Start& from, double target);
   bool solve_with_lagged_friction(double target);
   Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver);
   /// Adds one step of Newton's method if it lowers the residual: quasi-Newton updates leave more than rounding even for
