@@ -74,12 +74,17 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
     const auto& [plate, at, hole, may_rub] = places[i];
     const double gap = hole < 0 ? 0 : equations.parameters.gap[hole], mu = hole < 0 ? 0 : equations.parameters.mu[hole];
     const ContactWaves& all = *joint.plates[plate].contact_waves[at];
-    auto waves = all.up_to(all.order(gap, mu, force));
-    const double k = equations.system->stiffness[equations.n_planes() + i];
-    equations.rims.push_back(std::make_shared<const RimProblem>(
-        !like.empty() && like[i]->waves() == waves
-            ? like[i]->with(gap, mu)
-            : RimProblem(std::move(waves), joint.plates[plate].contact[at].area, k, gap, mu)));
+    const double k = equations.system->stiffness[equations.n_planes() + i], area = joint.plates[plate].contact[at].area;
+    const int order = all.order(gap, force), to_compare = all.order_to_compare(order, mu);
+    const bool compares = to_compare != order && (all.has_root_at_end(mu) || joint.plates[plate].has_peak_errors());
+    const auto waves = all.up_to(order), compared = compares ? all.up_to(to_compare) : nullptr;
+    const auto make = [&](const auto& its, auto other) {
+      return std::make_shared<const RimProblem>(its, area, k, gap, mu, std::move(other));
+    };
+    const bool is_alike = !like.empty() && like[i]->waves() == waves &&
+                          (like[i]->compared() ? like[i]->compared()->waves() : nullptr) == compared;
+    equations.rims.push_back(is_alike ? std::make_shared<const RimProblem>(like[i]->with(gap, mu))
+                                      : make(waves, compares ? make(compared, nullptr) : nullptr));
     equations.has_friction = equations.has_friction || mu != 0;
     place(std::make_shared<RimInterface>(equations.rims.back(), i, may_rub), equations.interfaces);
   }

@@ -33,8 +33,10 @@ double contact_stiffness(const ShortWaves& waves, double area, double k) {
 
 }  // namespace
 
-RimProblem::RimProblem(std::shared_ptr<const ShortWaves> waves, double area, double k, double gap, double mu)
+RimProblem::RimProblem(std::shared_ptr<const ShortWaves> waves, double area, double k, double gap, double mu,
+                       std::shared_ptr<const RimProblem> compared)
     : waves_(std::move(waves)),
+      compared_(std::move(compared)),
       area_(area),
       k_(k),
       contact_(waves_->pressures, contact_stiffness(*waves_, area, k), gap, mu),
@@ -69,6 +71,7 @@ RimProblem RimProblem::with(double gap, double mu) const {
   RimProblem other = *this;
   other.contact_ = contact_.with(gap, mu);
   other.is_solved_ = false;
+  if (compared_) other.compared_ = std::make_shared<const RimProblem>(compared_->with(gap, mu));
   return other;
 }
 
@@ -145,16 +148,16 @@ RimProblem::State RimProblem::state_with_friction(const VectorXd& b, VectorXd w)
   return at;
 }
 
-MatrixXd RimProblem::jacobian(const State& at) const {
+MatrixXd RimProblem::jacobian(const Touching& touching, const RimFriction& friction) const {
   MatrixXd J;
   if (is_diagonal_) {
-    J = modulus() * (M_tau_ * at.friction.slopes);
-    J += modulus() * waves_->M.diagonal().asDiagonal() * at.touching.gram;
+    J = modulus() * (M_tau_ * friction.slopes);
+    J += modulus() * waves_->M.diagonal().asDiagonal() * touching.gram;
   } else {
-    J = modulus() * waves_->M_tau * at.friction.slopes;
-    J += modulus() * waves_->M * at.touching.gram;
+    J = modulus() * waves_->M_tau * friction.slopes;
+    J += modulus() * waves_->M * touching.gram;
   }
-  J += contact_.stiffness() * diagonal_.asDiagonal() * at.touching.gram;
+  J += contact_.stiffness() * diagonal_.asDiagonal() * touching.gram;
   J.diagonal().array() += 1;
   return J;
 }
@@ -167,7 +170,7 @@ bool RimProblem::solve_with_friction(const VectorXd& b, State& at) const {
   for (int i = 0; i < max_pressure_steps; ++i) {
     const double before = at.residual.norm();
     if (before <= rim_rounding * scale()) return true;
-    const VectorXd step = -matrices::Lu(jacobian(at)).solve(at.residual);
+    const VectorXd step = -matrices::Lu(jacobian(at.touching, at.friction)).solve(at.residual);
     const int halvings = before > near * scale() ? max_step_halvings : 0;
     double length = 1;
     State there = state_with_friction(b, at.w + step);
@@ -206,44 +209,57 @@ const RimSolution& RimProblem::solve(const VectorXd& c) const {
   if (is_solved_ && last_c_ == c) return last_;
   VectorXd start;
   if (last_c_.size() > 0 && last_.converged) start = last_.w + last_.w_by_c * (c - last_c_);
-  last_ = solution(c, start);
+  last_ = solution(rhs_at(c), start);
+  add_derivatives(last_);
   last_c_ = c;
   is_solved_ = true;
   return last_;
 }
 
-RimSolution RimProblem::solution(const VectorXd& c, const VectorXd& start) const {
-  const Index n = waves_->n;
-  VectorXd b = VectorXd::Zero(n);
+RimSolution RimProblem::solve_compared(const VectorXd& c) const {
+  const VectorXd& w = solve(c).w;
+  VectorXd start = VectorXd::Zero(compared_->waves_->n);
+  const Index both = std::min(start.size(), w.size());
+  start.head(both) = w.head(both);
+  return compared_->solution(compared_->rhs_at(c), start);
+}
+
+VectorXd RimProblem::rhs_at(const VectorXd& c) const {
+  VectorXd b = VectorXd::Zero(waves_->n);
   b.head(n_long()) = c / k_;
-  MatrixXd rhs = MatrixXd::Zero(n, n_long() + 1);
-  rhs.topLeftCorner(n_long(), n_long()).diagonal().setConstant(1 / k_);
+  return b;
+}
+
+RimSolution RimProblem::solution(const VectorXd& b, const VectorXd& start) const {
   State at;
-  RimSolution result;
+  bool converged = true;
   if (contact_.mu() > 0) {
     if (start.size() > 0) at = state_with_friction(b, start);
     if (start.size() == 0 || !solve_with_friction(b, at)) {
       const VectorXd w = solve_frictionless(b, b).w;
       at = state_with_friction(b, w);
-      result.converged = solve_with_friction(b, at) || solve_by_more_friction(b, w, at);
+      converged = solve_with_friction(b, at) || solve_by_more_friction(b, w, at);
     }
-    if (at.friction.slips) rhs.rightCols(1) = -waves_->M_tau * at.friction.forces / (area_ * contact_.mu());
-    if (!at.touching.arcs.empty()) rhs = matrices::Lu(jacobian(at)).solve(std::move(rhs));
   } else {
     at = solve_frictionless(b, start.size() > 0 ? start : b);
-    if (!at.touching.arcs.empty()) {
-      rhs = solve_root(rhs);
-      curvature(at.touching).llt().solveInPlace(rhs);
-      for (auto column : rhs.colwise()) column = forward(column);
-    }
   }
-  result.w_by_c = rhs.leftCols(n_long());
-  result.w_by_mu = rhs.rightCols(1);
-  result.w = std::move(at.w);
-  result.touching = std::move(at.touching);
-  result.forces = std::move(at.forces);
-  result.friction = std::move(at.friction);
-  return result;
+  return {std::move(at.w), std::move(at.touching), std::move(at.forces), std::move(at.friction), {}, {}, converged};
+}
+
+void RimProblem::add_derivatives(RimSolution& its) const {
+  MatrixXd rhs = MatrixXd::Zero(waves_->n, n_long() + 1);
+  rhs.topLeftCorner(n_long(), n_long()).diagonal().setConstant(1 / k_);
+  const bool touches = !its.touching.arcs.empty();
+  if (contact_.mu() > 0) {
+    if (its.friction.slips) rhs.rightCols(1) = -waves_->M_tau * its.friction.forces / (area_ * contact_.mu());
+    if (touches) rhs = matrices::Lu(jacobian(its.touching, its.friction)).solve(std::move(rhs));
+  } else if (touches) {
+    rhs = solve_root(rhs);
+    curvature(its.touching).llt().solveInPlace(rhs);
+    for (auto column : rhs.colwise()) column = forward(column);
+  }
+  its.w_by_c = rhs.leftCols(n_long());
+  its.w_by_mu = rhs.rightCols(1);
 }
 
 }  // namespace fastjoint::stage3

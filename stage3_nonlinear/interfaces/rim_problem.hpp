@@ -34,10 +34,17 @@ struct RimSolution {
 class RimProblem {
  public:
   /// @param area Area of the rim, length^2. @param k Stiffness of the coordinates, force / length.
-  RimProblem(std::shared_ptr<const ShortWaves> waves, double area, double k, double gap, double mu);
+  /// @param compared The same rim with other waves, which shows the error of peaks by these; may be null.
+  RimProblem(std::shared_ptr<const ShortWaves> waves, double area, double k, double gap, double mu,
+             std::shared_ptr<const RimProblem> compared = nullptr);
 
   [[nodiscard]] const CompressionOnlyRim& contact() const { return contact_; }
   [[nodiscard]] const std::shared_ptr<const ShortWaves>& waves() const { return waves_; }
+  [[nodiscard]] const std::shared_ptr<const RimProblem>& compared() const { return compared_; }
+  /// That of this problem and `compared` with more waves.
+  [[nodiscard]] const RimProblem& finest() const {
+    return compared_ && compared_->waves_->n > waves_->n ? *compared_ : *this;
+  }
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double k() const { return k_; }
   [[nodiscard]] Index n_long() const { return waves_->n_long; }
@@ -52,9 +59,15 @@ class RimProblem {
 
   /// Solution at contact coordinates c, (n_long), force. The last one is kept for repeated calls and as the next start.
   [[nodiscard]] const RimSolution& solve(const VectorXd& c) const;
+  /// The same of `compared`, which starts at the solution of this problem, without derivatives.
+  [[nodiscard]] RimSolution solve_compared(const VectorXd& c) const;
 
  private:
-  [[nodiscard]] RimSolution solution(const VectorXd& c, const VectorXd& start) const;
+  /// Solution without derivatives. @param start (n) w, or none.
+  [[nodiscard]] RimSolution solution(const VectorXd& b, const VectorXd& start) const;
+  void add_derivatives(RimSolution& solution) const;
+  /// Right-hand side of the equation of w at contact coordinates, (n), length.
+  [[nodiscard]] VectorXd rhs_at(const VectorXd& c) const;
   /// Contact at a displacement w = b + root s, (n).
   struct State {
     VectorXd s, w;
@@ -74,9 +87,10 @@ class RimProblem {
   /// @param w Solution without friction. @param at Solution, if there is one.
   [[nodiscard]] bool solve_by_more_friction(const VectorXd& b, VectorXd w, State& at) const;
   /// Derivative of the residual by w, (n, n), dimensionless.
-  [[nodiscard]] MatrixXd jacobian(const State& at) const;
+  [[nodiscard]] MatrixXd jacobian(const Touching& touching, const RimFriction& friction) const;
 
   std::shared_ptr<const ShortWaves> waves_;
+  std::shared_ptr<const RimProblem> compared_;
   double area_, k_;
   CompressionOnlyRim contact_;
   bool is_diagonal_;                                    ///< M_k, as in an isotropic sheet

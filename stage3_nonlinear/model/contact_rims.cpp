@@ -15,7 +15,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr int least_order = 24, highest_order = 128;
+constexpr int least_order = 20, highest_order = 128;
 
 /// Order of the shortest wave if the file leaves it to the joint: a half more than the elements carry, so that the
 /// change by the shorter waves shows their error.
@@ -174,20 +174,23 @@ bool ContactWaves::is_of(const formats::ContactRim& contact, const formats::Wave
 }
 
 bool ContactWaves::is_stiff() const {
-  constexpr double stiff = 3;
+  constexpr double stiff = 3.6;
   return contact_.disk.is_given() || fewest_->fall * contact_.modulus > stiff * fewest_->pressures.highest;
 }
 
-int ContactWaves::order(double gap, double mu, double force) const {
+int ContactWaves::order(double gap, double force) const {
   if (contact_.pressures.highest > 0) return contact_.pressures.highest;
   // Half the arc on which two half-planes of the rims' compliance touch (Hertz), at most that of a disc without a gap.
   double half_arc = std::numbers::pi / 2;
   if (gap > 0 && force > 0) half_arc = std::min(half_arc, 2 * std::sqrt(force * fewest_->fall / (contact_.area * gap)));
-  constexpr double per_arc = 20, with_friction = 50, most_by_friction = 48;  // for the aims of section 6.8
-  double needed = per_arc / half_arc;
-  if (mu > 0 && is_stiff()) needed = std::max(needed, std::min(with_friction / half_arc, most_by_friction));
-  needed = std::min(needed, double(highest_order));
+  constexpr double per_arc = 20;  // for the aims of section 6.8
+  const double needed = std::min(per_arc / half_arc, double(highest_order));
   return std::max(fewest_->pressures.highest, static_cast<int>(std::ceil(needed / 4)) * 4);
+}
+
+int ContactWaves::order_to_compare(int order, double mu) const {
+  if (has_root_at_end(mu) && contact_.pressures.highest == 0 && 2 * order <= rim::max_harmonics) return 2 * order;
+  return std::max({carried_.waves.highest, order / 2, 2});
 }
 
 std::shared_ptr<const ShortWaves> ContactWaves::up_to(int order) const {

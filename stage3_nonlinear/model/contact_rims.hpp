@@ -62,17 +62,20 @@ class ContactWaves {
   /// Highest order of the waves that contact asks for, a multiple of 4 if the file does not say it: the narrower the
   /// arc on which a disc with a gap touches, the more waves (docs/theory.md, section 6.8).
   /// @param force Largest force of a fastener.
-  [[nodiscard]] int order(double gap, double mu, double force) const;
+  [[nodiscard]] int order(double gap, double force) const;
+  /// Order of the waves that show the error of peaks by those up to `order`: half as many, or twice as many where the
+  /// stress converges slowly.
+  [[nodiscard]] int order_to_compare(int order, double mu) const;
   /// Those of all orders up to one, for the sheet's matrices with the fewest. They are kept, for any thread.
   [[nodiscard]] std::shared_ptr<const ShortWaves> up_to(int order) const;
   /// Those to which the sheet's matrices belong, the fewest that a joint asks for.
   [[nodiscard]] const ShortWaves& fewest() const { return *fewest_; }
-  [[nodiscard]] int carried_order() const { return carried_.waves.highest; }
-  /// True of an elastic disk, and of springs that the shortest wave does not feel: with friction the stress then has a
+  /// True with friction on an elastic disk, or on springs that the shortest wave does not feel: the stress is like a
   /// square root at the end of contact, for which waves converge slowly.
-  [[nodiscard]] bool is_stiff() const;
+  [[nodiscard]] bool has_root_at_end(double mu) const { return mu > 0 && is_stiff(); }
 
  private:
+  [[nodiscard]] bool is_stiff() const;
   formats::ContactRim contact_;
   formats::WaveRim carried_;
   std::shared_ptr<const ShortWaves> fewest_;

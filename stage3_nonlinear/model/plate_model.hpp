@@ -58,6 +58,8 @@ struct PlateModel : formats::PlateProperties, PlateDegree {
   std::vector<MatrixXd> wave_rows{};  ///< PlateCases::W of all rims at the joint's degree and the one before
   bool peaks_alone = false;           ///< no errors of hoop stresses and no check of friction against the slip
 
+  /// True if the peaks of hoop stresses have error bars.
+  [[nodiscard]] bool has_peak_errors() const { return stress_level && !peaks_alone; }
   /// True if a traction is a moment.
   [[nodiscard]] bool is_moment(Index traction) const {
     return traction < std::ssize(traction_arm) && traction_arm[traction] > 0;

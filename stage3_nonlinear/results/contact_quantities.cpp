@@ -66,7 +66,7 @@ PlateGroup contact_quantities(const PlateModel& plate) {
             const Index first = first_rim(at.of.joint, at.plate);
             MatrixXd all(g, 7);
             for (Index i = 0; i < g; ++i)
-              all.row(i) = describe(*equations.rims[first + i], equations.of_rim(at.of.step.c, first + i));
+              all.row(i) = describe(equations.rims[first + i]->finest(), equations.of_rim(at.of.step.c, first + i));
             return all;
           }};
 }

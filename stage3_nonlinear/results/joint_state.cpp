@@ -228,12 +228,9 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   JointState state;
   std::vector<ContactLoad> contacts;
   for (const PlateModel& plate : joint.plates)
-    for (const auto& waves : plate.contact_waves) {
+    for (Index k = 0; k < std::ssize(plate.contact); ++k) {
       const Index i = std::ssize(contacts);
-      const RimProblem& rim = *equations.rims[i];
-      const VectorXd c = equations.of_rim(step.c, i);
-      const bool has_errors = plate.stress_level && !plate.peaks_alone;
-      contacts.push_back(has_errors ? contact_load(rim, *waves, c) : contact_load(rim, rim.solve(c).w));
+      contacts.push_back(contact_load(*equations.rims[i], equations.of_rim(step.c, i), plate.stress_level.has_value()));
     }
   state.plates = plate_loads(joint, system, contacts, D, load, step.Lambda);
   state.transferred_first = transferred(equations, step.F, 0);

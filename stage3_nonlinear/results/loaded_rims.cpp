@@ -20,6 +20,12 @@ struct HalfLoad {
   double direction, peak;
 };
 
+std::vector<double> ends_of(const std::vector<rim::AngleRange>& arcs) {
+  std::vector<double> ends;
+  for (const auto& arc : arcs) ends.insert(ends.end(), {arc.from, arc.to});
+  return ends;
+}
+
 /// Given tractions on a rim that is not in contact, in addition to the pressure of its springs.
 struct KnownLoads {
   std::vector<HalfLoad> pressures, frictions;
@@ -72,19 +78,26 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
 /// Tractions of contact: the pressure of the springs, and friction proportional to it.
 Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contour) {
   return [gap = load.gap, contour](double angle) -> Eigen::Vector2d {
+    if (!rim::covers(contour.arcs, angle)) return {0, 0};
     const double p = contour.modulus * std::max(contour.shape.sum_at(contour.w, angle).first - gap, 0.0);
     return {p, -contour.mu * p * sign_of(std::sin(angle - contour.direction))};
   };
 }
 
-/// @param w Waves of the displacement, as many as the rim's.
+/// @param w, forces All waves of the displacement and of the pressure times the area.
 ContactLoad::Contour contour_of(const RimProblem& rim, const Touching& touching, const RimFriction& friction,
-                                const VectorXd& w) {
+                                const VectorXd& w, const VectorXd& forces) {
   const CompressionOnlyRim& contact = rim.contact();
-  ContactLoad::Contour contour{
-      contact.pressures(), w, contact.mu() / friction.excess, rim.modulus(), friction.direction, {}, friction.slips};
-  for (const auto& arc : touching.arcs) contour.ends.insert(contour.ends.end(), {arc.from, arc.to});
-  return contour;
+  return {contact.pressures(),
+          w,
+          contact.mu() / friction.excess,
+          rim.modulus(),
+          friction.direction,
+          touching.arcs,
+          friction.slips,
+          forces / rim.area(),
+          friction.forces / rim.area(),
+          rim.waves()};
 }
 
 /// Corrects the displacement of the elements, where short waves are those of linear springs, to that under the contact
@@ -103,16 +116,16 @@ void correct(const ContactLoad& load, double modulus, VectorXd& displacement) {
 
 /// Waves of the tangential displacement of the disc relative to the sheet, (n_shears).
 /// @param along The long ones, for a rigid disc.
-VectorXd slip_of(const ContactLoad& load, const VectorXd& along) {
-  const ShortWaves& rim = *load.waves;
+VectorXd slip_of(const ContactLoad::Contour& its, const VectorXd& along) {
+  const ShortWaves& rim = *its.waves;
   VectorXd slip(rim.n_shears);
   slip.head(along.size()) = along;
   const Index s_t = rim.n_shears - rim.n_long_shears;
   if (s_t > 0) {
     const auto rows = rim.D.bottomRows(s_t);
-    slip.tail(s_t) = -(rows.leftCols(rim.n) * load.pressure + rows.rightCols(rim.n_shears) * load.shear);
+    slip.tail(s_t) = -(rows.leftCols(rim.n) * its.pressure + rows.rightCols(rim.n_shears) * its.shear);
   }
-  slip -= rim.disk_by_shear.transpose() * load.pressure + rim.disk_tangential.cwiseProduct(load.shear);
+  slip -= rim.disk_by_shear.transpose() * its.pressure + rim.disk_tangential.cwiseProduct(its.shear);
   return slip;
 }
 
@@ -130,22 +143,20 @@ double LoadedRim::against_slip() const {
   return double(against) * 360 / double(n);
 }
 
-ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
+ContactLoad contact_load_by(const RimProblem& rim, const VectorXd& w) {
   const CompressionOnlyRim& contact = rim.contact();
   const Touching touching = contact.touching(w);
-  const RimFriction friction = rim_friction(contact, touching, w);
-  const VectorXd pressure = contact.forces(touching, w) / rim.area(), shear = friction.forces / rim.area();
-  return {rim.against_sheet(w, pressure, shear),  pressure, shear, contact.gap(), rim.waves(),
-          contour_of(rim, touching, friction, w), {}};
+  auto all = contour_of(rim, touching, rim_friction(contact, touching, w), w, contact.forces(touching, w));
+  return {rim.against_sheet(w, all.pressure, all.shear), all.pressure, all.shear, contact.gap(), rim.waves(), all, {}};
 }
 
-ContactLoad contact_load(const RimProblem& rim, const ContactWaves& waves, const VectorXd& c) {
-  ContactLoad load = contact_load(rim, rim.solve(c).w);
-  const int order = load.all.shape.highest, fewer = std::max({waves.carried_order(), order / 2, 2});
-  if (fewer >= order) return load;
-  const RimProblem by_fewer(waves.up_to(fewer), rim.area(), rim.k(), rim.contact().gap(), rim.contact().mu());
-  if (const RimSolution& its = by_fewer.solve(c); its.converged)
-    load.fewer = contour_of(by_fewer, its.touching, its.friction, its.w);
+ContactLoad contact_load(const RimProblem& rim, const VectorXd& c, bool compares) {
+  ContactLoad load = contact_load_by(rim, rim.solve(c).w);
+  if (!compares || !rim.compared()) return load;
+  const RimSolution other = rim.solve_compared(c);
+  if (!other.converged) return load;
+  load.fewer = contour_of(*rim.compared(), other.touching, other.friction, other.w, other.forces);
+  if (&rim.finest() != &rim) std::swap(load.all, *load.fewer);
   return load;
 }
 
@@ -212,22 +223,21 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     }
     if (in_contact) {
       const auto& [all, fewer] = std::tie(contacts[i].all, contacts[i].fewer);
-      loaded->kinks = all.ends;
+      loaded->kinks = ends_of(all.arcs);
       if (all.mu > 0 && all.slips && !plate.peaks_alone) {
         loaded->all = all.shape;
-        loaded->slip = slip_of(contacts[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
+        loaded->slip = slip_of(all, loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
       }
       loaded->beyond = infinite;
       if (fewer) {
-        loaded->has_root_at_end = plate.contact_waves[i]->is_stiff() && all.mu > 0;
+        loaded->has_root_at_end = plate.contact_waves[i]->has_root_at_end(all.mu);
         const double rate = loaded->has_root_at_end ? 0.5 : 1.5;
         loaded->beyond = 1 / (std::pow(double(all.shape.highest) / fewer->shape.highest, rate) - 1);
-        loaded->kinks_by_fewer = fewer->ends;
+        loaded->kinks_by_fewer = ends_of(fewer->arcs);
         loaded->by_fewer = of_contact(contacts[i], *fewer);
       }
     }
-    if (!in_contact && rim.modulus > 0)
-      for (const auto& arc : rim.acts) loaded->kinks.insert(loaded->kinks.end(), {arc.from, arc.to});
+    if (!in_contact && rim.modulus > 0) loaded->kinks = ends_of(rim.acts);
   }
   return result;
 }

@@ -61,20 +61,23 @@ struct ContactLoad {
   /// The tractions as functions of the angle, from the waves of the displacement up to the order of `shape`.
   struct Contour {
     rim::Harmonics shape;
-    VectorXd w;                ///< without the compliance of the disk or the springs, length
-    double mu;                 ///< shear over pressure; less than that of the fastener if the rim sticks
-    double modulus;            ///< pressure per unit of overlap of the rims, force / length^3
-    double direction;          ///< of the resultant of the pressure on the sheet, radians
-    std::vector<double> ends;  ///< of the arcs of contact, radians
-    bool slips = true;         ///< else the rim sticks, and where it does so is not known
+    VectorXd w;                         ///< without the compliance of the disk or the springs, length
+    double mu;                          ///< shear over pressure; less than that of the fastener if the rim sticks
+    double modulus;                     ///< pressure per unit of overlap of the rims, force / length^3
+    double direction;                   ///< of the resultant of the pressure on the sheet, radians
+    std::vector<rim::AngleRange> arcs;  ///< of contact
+    bool slips;                         ///< else the rim sticks, and where it does so is not known
+    VectorXd pressure, shear;           ///< waves of both, as in ContactLoad
+    std::shared_ptr<const ShortWaves> waves;
   };
-  Contour all;                   ///< from all waves
+  Contour all;                   ///< from all waves, or more than those if friction asks for it
   std::optional<Contour> fewer;  ///< the same rim by fewer waves, to estimate the effect of further ones
 };
 /// Contact for given waves w of the displacement, (n), length.
-[[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const VectorXd& w);
-/// Contact of a rim with the coordinates c, and by about half the waves.
-[[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const ContactWaves& waves, const VectorXd& c);
+[[nodiscard]] ContactLoad contact_load_by(const RimProblem& rim, const VectorXd& w);
+/// Contact of a rim with the coordinates c. @param compares Whether ContactLoad::all and `fewer` are from two numbers
+/// of waves, if the rim has another to compare with.
+[[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const VectorXd& c, bool compares);
 
 /// Coefficients of the waves of the elements under a contact load: pressures in excess of that of the springs in S,
 /// then shears, (n_carried), stress.
