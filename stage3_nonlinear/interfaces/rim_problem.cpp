@@ -206,31 +206,40 @@ bool RimProblem::solve_by_more_friction(const VectorXd& b, VectorXd w, State& at
 }
 
 const RimSolution& RimProblem::solve(const VectorXd& c) const {
-  if (is_solved_ && last_c_ == c) return last_;
-  VectorXd start;
-  if (last_c_.size() > 0 && last_.converged) start = last_.w + last_.w_by_c * (c - last_c_);
-  last_ = solution(rhs_at(c), start);
-  add_derivatives(last_);
-  last_c_ = c;
-  is_solved_ = true;
+  if (!is_solved_at(c)) {
+    const bool predicts = last_c_.size() > 0 && last_.converged && last_.w_by_c.size() > 0;
+    solve_from(predicts ? VectorXd(last_.w + last_.w_by_c * (c - last_c_)) : VectorXd(), c);
+  }
+  if (last_.w_by_c.size() == 0) add_derivatives(last_);
   return last_;
 }
 
-RimSolution RimProblem::solve_compared(const VectorXd& c) const {
-  const VectorXd& w = solve(c).w;
-  VectorXd start = VectorXd::Zero(compared_->waves_->n);
-  const Index both = std::min(start.size(), w.size());
-  start.head(both) = w.head(both);
-  return compared_->solution(compared_->rhs_at(c), start);
+const RimSolution& RimProblem::solve_compared(const VectorXd& c) const {
+  if (!compared_->is_solved_at(c)) {
+    VectorXd start = VectorXd::Zero(compared_->waves_->n);
+    const Index both = std::min(start.size(), waves_->n);
+    start.head(both) = solve(c).w.head(both);
+    compared_->solve_from(start, c);
+  }
+  return compared_->last_;
 }
 
-VectorXd RimProblem::rhs_at(const VectorXd& c) const {
+void RimProblem::solve_from(const VectorXd& start, const VectorXd& c) const {
+  last_ = solution(c, start);
+  last_c_ = c;
+  is_solved_ = true;
+}
+
+RimSolution RimProblem::contact_at(VectorXd w) const {
+  Touching touching = contact_.touching(w);
+  VectorXd forces = contact_.forces(touching, w);
+  RimFriction friction = rim_friction(contact_, touching, w);
+  return {std::move(w), std::move(touching), std::move(forces), std::move(friction)};
+}
+
+RimSolution RimProblem::solution(const VectorXd& c, const VectorXd& start) const {
   VectorXd b = VectorXd::Zero(waves_->n);
   b.head(n_long()) = c / k_;
-  return b;
-}
-
-RimSolution RimProblem::solution(const VectorXd& b, const VectorXd& start) const {
   State at;
   bool converged = true;
   if (contact_.mu() > 0) {
@@ -243,7 +252,7 @@ RimSolution RimProblem::solution(const VectorXd& b, const VectorXd& start) const
   } else {
     at = solve_frictionless(b, start.size() > 0 ? start : b);
   }
-  return {std::move(at.w), std::move(at.touching), std::move(at.forces), std::move(at.friction), {}, {}, converged};
+  return {std::move(at.w), std::move(at.touching), std::move(at.forces), std::move(at.friction), converged};
 }
 
 void RimProblem::add_derivatives(RimSolution& its) const {

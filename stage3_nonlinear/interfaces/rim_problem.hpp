@@ -18,9 +18,10 @@ struct RimSolution {
   Touching touching;      ///< where disc and rim touch
   VectorXd forces;        ///< (n) all waves of the pressure times the area, force
   RimFriction friction;   ///< of all waves; empty without friction
-  MatrixXd w_by_c;        ///< (n, n_long) derivative by the contact coordinates, length / force
-  VectorXd w_by_mu;       ///< (n) by the coefficient of friction, length; 0 without friction
   bool converged = true;  ///< without friction there is one solution, which is always found
+  // Only of RimProblem::solve.
+  MatrixXd w_by_c{};   ///< (n, n_long) derivative by the contact coordinates, length / force
+  VectorXd w_by_mu{};  ///< (n) by the coefficient of friction, length; 0 without friction
 };
 
 /// The local problem of a rim of contact: all waves of its displacement and pressure, short ones included, for given
@@ -41,10 +42,6 @@ class RimProblem {
   [[nodiscard]] const CompressionOnlyRim& contact() const { return contact_; }
   [[nodiscard]] const std::shared_ptr<const ShortWaves>& waves() const { return waves_; }
   [[nodiscard]] const std::shared_ptr<const RimProblem>& compared() const { return compared_; }
-  /// That of this problem and `compared` with more waves.
-  [[nodiscard]] const RimProblem& finest() const {
-    return compared_ && compared_->waves_->n > waves_->n ? *compared_ : *this;
-  }
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double k() const { return k_; }
   [[nodiscard]] Index n_long() const { return waves_->n_long; }
@@ -59,15 +56,24 @@ class RimProblem {
 
   /// Solution at contact coordinates c, (n_long), force. The last one is kept for repeated calls and as the next start.
   [[nodiscard]] const RimSolution& solve(const VectorXd& c) const;
-  /// The same of `compared`, which starts at the solution of this problem, without derivatives.
-  [[nodiscard]] RimSolution solve_compared(const VectorXd& c) const;
+  /// That of `compared`, which starts at the solution of this problem.
+  [[nodiscard]] const RimSolution& solve_compared(const VectorXd& c) const;
+  /// `compared` if it has more waves and a solution at c, else this problem; and the solution.
+  [[nodiscard]] const RimProblem& finest_at(const VectorXd& c) const {
+    return compared_ && compared_->waves_->n > waves_->n && solve_compared(c).converged ? *compared_ : *this;
+  }
+  [[nodiscard]] const RimSolution& solve_finest(const VectorXd& c) const {
+    return &finest_at(c) == this ? solve(c) : solve_compared(c);
+  }
+  /// Contact for given waves w, (n), length, whatever their coordinates.
+  [[nodiscard]] RimSolution contact_at(VectorXd w) const;
 
  private:
-  /// Solution without derivatives. @param start (n) w, or none.
-  [[nodiscard]] RimSolution solution(const VectorXd& b, const VectorXd& start) const;
+  [[nodiscard]] bool is_solved_at(const VectorXd& c) const { return is_solved_ && last_c_ == c; }
+  /// Keeps the solution at c. @param start (n) w, or none.
+  void solve_from(const VectorXd& start, const VectorXd& c) const;
+  [[nodiscard]] RimSolution solution(const VectorXd& c, const VectorXd& start) const;
   void add_derivatives(RimSolution& solution) const;
-  /// Right-hand side of the equation of w at contact coordinates, (n), length.
-  [[nodiscard]] VectorXd rhs_at(const VectorXd& c) const;
   /// Contact at a displacement w = b + root s, (n).
   struct State {
     VectorXd s, w;

@@ -21,10 +21,9 @@ std::vector<rim::AngleRange> joined_arcs(const CompressionOnlyRim& rim, std::vec
   return arcs;
 }
 
-/// Contact of a rim at c, in the order of the quantities.
-Eigen::RowVectorXd describe(const RimProblem& problem, const VectorXd& c) {
+/// Contact of a rim, in the order of the quantities.
+Eigen::RowVectorXd describe(const RimProblem& problem, const RimSolution& solution) {
   const CompressionOnlyRim& rim = problem.contact();
-  const RimSolution& solution = problem.solve(c);
   const auto arcs = joined_arcs(rim, solution.touching.arcs);
   const auto width = [](const rim::AngleRange& arc) { return arc.to - arc.from; };
   double touching = 0, from = 0, to = 0;
@@ -65,8 +64,11 @@ PlateGroup contact_quantities(const PlateModel& plate) {
             const JointEquations& equations = at.of.equations;
             const Index first = first_rim(at.of.joint, at.plate);
             MatrixXd all(g, 7);
-            for (Index i = 0; i < g; ++i)
-              all.row(i) = describe(equations.rims[first + i]->finest(), equations.of_rim(at.of.step.c, first + i));
+            for (Index i = 0; i < g; ++i) {
+              const RimProblem& rim = *equations.rims[first + i];
+              const VectorXd c = equations.of_rim(at.of.step.c, first + i);
+              all.row(i) = describe(rim.finest_at(c), rim.solve_finest(c));
+            }
             return all;
           }};
 }

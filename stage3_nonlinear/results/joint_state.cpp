@@ -204,8 +204,8 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
     const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
     append(wave_coefficients(load, modulus), waves);
     append(load.w.head(of_field.size()), w);
-    append((load.pressure - modulus * load.w).head(of_field.size()), added);
-    append(load.shear.head(of_field.n_shears()), added);
+    append((load.own.pressure - modulus * load.w).head(of_field.size()), added);
+    append(load.own.shear.head(of_field.n_shears()), added);
   }
   const auto vector = [](const std::vector<double>& list) -> VectorXd {
     return Eigen::Map<const VectorXd>(list.data(), std::ssize(list));

@@ -79,35 +79,32 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
 Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contour) {
   return [gap = load.gap, contour](double angle) -> Eigen::Vector2d {
     if (!rim::covers(contour.arcs, angle)) return {0, 0};
-    const double p = contour.modulus * std::max(contour.shape.sum_at(contour.w, angle).first - gap, 0.0);
+    const double p = contour.modulus * std::max(contour.waves->pressures.sum_at(contour.w, angle).first - gap, 0.0);
     return {p, -contour.mu * p * sign_of(std::sin(angle - contour.direction))};
   };
 }
 
-/// @param w, forces All waves of the displacement and of the pressure times the area.
-ContactLoad::Contour contour_of(const RimProblem& rim, const Touching& touching, const RimFriction& friction,
-                                const VectorXd& w, const VectorXd& forces) {
-  const CompressionOnlyRim& contact = rim.contact();
-  return {contact.pressures(),
-          w,
-          contact.mu() / friction.excess,
+ContactLoad::Contour contour_of(const RimProblem& rim, const RimSolution& its) {
+  const VectorXd shear = its.friction.forces.size() > 0 ? its.friction.forces : VectorXd::Zero(rim.waves()->n_shears);
+  return {rim.waves(),
+          its.forces / rim.area(),
+          shear / rim.area(),
+          its.w,
+          rim.contact().mu() / its.friction.excess,
           rim.modulus(),
-          friction.direction,
-          touching.arcs,
-          friction.slips,
-          forces / rim.area(),
-          friction.forces / rim.area(),
-          rim.waves()};
+          its.friction.direction,
+          its.touching.arcs,
+          its.friction.slips};
 }
 
 /// Corrects the displacement of the elements, where short waves are those of linear springs, to that under the contact
 /// load.
 void correct(const ContactLoad& load, double modulus, VectorXd& displacement) {
-  const ShortWaves& rim = *load.waves;
+  const ShortWaves& rim = *load.own.waves;
   if (rim.is_empty()) return;
   const Index s = rim.n - rim.n_long, s_t = rim.n_shears - rim.n_long_shears;
-  const VectorXd p_s = load.pressure.tail(s), tau_s = load.shear.tail(s_t);
-  const VectorXd w_s = -(rim.G * load.pressure.head(rim.n_long) + rim.G_t * load.shear.head(rim.n_long_shears));
+  const VectorXd p_s = load.own.pressure.tail(s), tau_s = load.own.shear.tail(s_t);
+  const VectorXd w_s = -(rim.G * load.own.pressure.head(rim.n_long) + rim.G_t * load.own.shear.head(rim.n_long_shears));
   displacement.head(rim.n_long) -= rim.G.transpose() * (p_s - modulus * load.w.tail(s)) + rim.E * tau_s;
   const auto rows = rim.D.middleRows(rim.n, rim.n_long_shears);
   displacement.tail(rim.n_long_shears) -=
@@ -143,31 +140,27 @@ double LoadedRim::against_slip() const {
   return double(against) * 360 / double(n);
 }
 
-ContactLoad contact_load_by(const RimProblem& rim, const VectorXd& w) {
-  const CompressionOnlyRim& contact = rim.contact();
-  const Touching touching = contact.touching(w);
-  auto all = contour_of(rim, touching, rim_friction(contact, touching, w), w, contact.forces(touching, w));
-  return {rim.against_sheet(w, all.pressure, all.shear), all.pressure, all.shear, contact.gap(), rim.waves(), all, {}};
+ContactLoad contact_load(const RimProblem& rim, const RimSolution& solution) {
+  auto own = contour_of(rim, solution);
+  VectorXd w = rim.against_sheet(solution.w, own.pressure, own.shear);
+  return {std::move(w), rim.contact().gap(), std::move(own)};
 }
 
 ContactLoad contact_load(const RimProblem& rim, const VectorXd& c, bool compares) {
-  ContactLoad load = contact_load_by(rim, rim.solve(c).w);
+  ContactLoad load = contact_load(rim, rim.solve(c));
   if (!compares || !rim.compared()) return load;
-  const RimSolution other = rim.solve_compared(c);
-  if (!other.converged) return load;
-  load.fewer = contour_of(*rim.compared(), other.touching, other.friction, other.w, other.forces);
-  if (&rim.finest() != &rim) std::swap(load.all, *load.fewer);
+  if (const RimSolution& its = rim.solve_compared(c); its.converged) load.compared = contour_of(*rim.compared(), its);
   return load;
 }
 
 VectorXd wave_coefficients(const ContactLoad& load, double modulus) {
-  const ShortWaves& rim = *load.waves;
+  const ShortWaves& rim = *load.own.waves;
   VectorXd w = load.w.head(rim.n_long);
   if (!rim.is_empty())
-    w += rim.G.transpose() * (load.pressure - modulus * load.w).tail(rim.n - rim.n_long) +
-         rim.E * load.shear.tail(rim.n_shears - rim.n_long_shears);
+    w += rim.G.transpose() * (load.own.pressure - modulus * load.w).tail(rim.n - rim.n_long) +
+         rim.E * load.own.shear.tail(rim.n_shears - rim.n_long_shears);
   VectorXd coefficients(rim.n_carried());
-  coefficients << load.pressure.head(rim.n_long) - modulus * w, load.shear.head(rim.n_long_shears);
+  coefficients << load.own.pressure.head(rim.n_long) - modulus * w, load.own.shear.head(rim.n_long_shears);
   return coefficients;
 }
 
@@ -217,24 +210,27 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
       VectorXd displacement = rows.middleRows(first, rim.size()) * coefficients / rim.area;
       if (in_contact) correct(contacts[i], rim.modulus, displacement);
       const Tractions tractions =
-          in_contact ? of_contact(contacts[i], contacts[i].all)
+          in_contact ? of_contact(contacts[i], contacts[i].finest())
                      : springs_and(rim, plate.spring_waves[i].get(), displacement.head(rim.waves.size()), known);
       loaded->degrees.push_back({std::move(displacement), tractions});
     }
     if (in_contact) {
-      const auto& [all, fewer] = std::tie(contacts[i].all, contacts[i].fewer);
+      const ContactLoad& load = contacts[i];
+      const auto& all = load.finest();
       loaded->kinks = ends_of(all.arcs);
       if (all.mu > 0 && all.slips && !plate.peaks_alone) {
-        loaded->all = all.shape;
+        loaded->all = all.waves->pressures;
         loaded->slip = slip_of(all, loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
       }
       loaded->beyond = infinite;
-      if (fewer) {
+      if (load.compared) {
+        const auto& fewer = load.compares_with_more() ? load.own : *load.compared;
         loaded->has_root_at_end = plate.contact_waves[i]->has_root_at_end(all.mu);
         const double rate = loaded->has_root_at_end ? 0.5 : 1.5;
-        loaded->beyond = 1 / (std::pow(double(all.shape.highest) / fewer->shape.highest, rate) - 1);
-        loaded->kinks_by_fewer = ends_of(fewer->arcs);
-        loaded->by_fewer = of_contact(contacts[i], *fewer);
+        const double ratio = double(all.waves->pressures.highest) / fewer.waves->pressures.highest;
+        loaded->beyond = 1 / (std::pow(ratio, rate) - 1);
+        loaded->kinks_by_fewer = ends_of(fewer.arcs);
+        loaded->by_fewer = of_contact(load, fewer);
       }
     }
     if (!in_contact && rim.modulus > 0) loaded->kinks = ends_of(rim.acts);

@@ -53,30 +53,29 @@ struct LoadedRim {
 
 /// Displacement and tractions of a rim of contact.
 struct ContactLoad {
-  VectorXd w;         ///< (n) all waves of the disc's normal displacement relative to the sheet, length
-  VectorXd pressure;  ///< (n) waves of the pressure on the sheet, stress
-  VectorXd shear;     ///< waves of the shear on it, stress; 0 without friction
-  double gap;         ///< radial, length
-  std::shared_ptr<const ShortWaves> waves;
-  /// The tractions as functions of the angle, from the waves of the displacement up to the order of `shape`.
+  /// Tractions as waves and, from the waves of the displacement, as functions of the angle.
   struct Contour {
-    rim::Harmonics shape;
+    std::shared_ptr<const ShortWaves> waves;
+    VectorXd pressure;                  ///< (n) waves of the pressure on the sheet, stress
+    VectorXd shear;                     ///< (n_shears) waves of the shear on it, stress; 0 without friction
     VectorXd w;                         ///< without the compliance of the disk or the springs, length
     double mu;                          ///< shear over pressure; less than that of the fastener if the rim sticks
     double modulus;                     ///< pressure per unit of overlap of the rims, force / length^3
     double direction;                   ///< of the resultant of the pressure on the sheet, radians
     std::vector<rim::AngleRange> arcs;  ///< of contact
     bool slips;                         ///< else the rim sticks, and where it does so is not known
-    VectorXd pressure, shear;           ///< waves of both, as in ContactLoad
-    std::shared_ptr<const ShortWaves> waves;
   };
-  Contour all;                   ///< from all waves, or more than those if friction asks for it
-  std::optional<Contour> fewer;  ///< the same rim by fewer waves, to estimate the effect of further ones
+  VectorXd w;                         ///< (n) all waves of the disc's normal displacement relative to the sheet, length
+  double gap;                         ///< radial, length
+  Contour own;                        ///< from the waves with which the joint is solved
+  std::optional<Contour> compared{};  ///< from another number of waves, to estimate the effect of further ones
+
+  [[nodiscard]] bool compares_with_more() const { return compared && compared->waves->n > own.waves->n; }
+  [[nodiscard]] const Contour& finest() const { return compares_with_more() ? *compared : own; }
 };
-/// Contact for given waves w of the displacement, (n), length.
-[[nodiscard]] ContactLoad contact_load_by(const RimProblem& rim, const VectorXd& w);
-/// Contact of a rim with the coordinates c. @param compares Whether ContactLoad::all and `fewer` are from two numbers
-/// of waves, if the rim has another to compare with.
+[[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const RimSolution& solution);
+/// Contact of a rim with the coordinates c. @param compares Whether it has ContactLoad::compared, if the rim has waves
+/// to compare with.
 [[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const VectorXd& c, bool compares);
 
 /// Coefficients of the waves of the elements under a contact load: pressures in excess of that of the springs in S,

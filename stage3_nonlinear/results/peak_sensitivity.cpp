@@ -93,15 +93,17 @@ class NearbyStates {
 
   /// A rim of contact after a change of a parameter: all its waves change by their derivatives.
   [[nodiscard]] ContactLoad contact_after(Index i, Index column, double change) const {
-    const RimProblem& rim = equations_.rims[i]->finest();
-    const RimSolution& solution = rim.solve(equations_.of_rim(point_.c(), i));
+    const VectorXd c = equations_.of_rim(point_.c(), i);
+    const RimProblem& rim = equations_.rims[i]->finest_at(c);
+    const RimSolution& solution = rim.solve(c);
     const double gap = column == numbers_.first_gap() + i ? change : 0, mu = column == numbers_.of_rim[i] ? change : 0;
     const VectorXd dc = equations_.of_rim(slopes_.F.col(column) + rim.k() * slopes_.delta.col(column), i);
     VectorXd w =
         solution.w + change * (solution.w_by_c * dc) + mu * solution.w_by_mu - gap * rim.k() * solution.w_by_c.col(0);
     w[0] += gap;
-    if (gap == 0 && mu == 0) return contact_load_by(rim, w);
-    return contact_load_by(rim.with(rim.contact().gap() + gap, rim.contact().mu() + mu), w);
+    if (gap == 0 && mu == 0) return contact_load(rim, rim.contact_at(w));
+    const RimProblem changed = rim.with(rim.contact().gap() + gap, rim.contact().mu() + mu);
+    return contact_load(changed, changed.contact_at(w));
   }
 
   const JointModel& joint_;
