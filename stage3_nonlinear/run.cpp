@@ -139,8 +139,9 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
   const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
   const MoreStresses wanted = stresses_wanted(arguments);
   const bool with_slopes = arguments.flag("--sensitivities");
-  auto [equations, path, increments, missing] = cases.follow(
-      at, its.load_factors, solving, {scene.solver.tolerance, with_slopes, wanted.all_around || wanted.distance});
+  auto [equations, path, increments, missing] =
+      cases.follow(at, its.load_factors, solving,
+                   {scene.solver.tolerance, with_slopes, &cases.bending(), wanted.all_around || wanted.distance});
   const auto& states = increments.states;
   path.interference = search_interference(equations, solving, path);
   const auto errors = cracks.of(joint, at, path, states, solving);
@@ -155,6 +156,7 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
   for (const auto& some :
        {warnings(joint, equations, path), implausible_numbers(scene, joint, equations.parameters, path),
         rim_warnings(joint, equations.parameters, states), crack_warnings(joint, states, errors),
+        bending_warnings(joint, states),
         wanted.distance ? distance_warnings(joint, *wanted.distance) : std::vector<program::Warning>()})
     solved.warnings.insert(solved.warnings.end(), some.begin(), some.end());
   if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, increments);

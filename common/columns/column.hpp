@@ -56,6 +56,7 @@ struct Group {
   std::vector<Quantity> quantities;
   std::function<Eigen::MatrixXd(const At&)> values;  ///< (n parts, quantities), parts varying fastest
   std::optional<std::vector<std::string>> parts;     ///< names of the numbers of each; none: it has one
+  h5::Shape extents{};                               ///< of the parts in the file; none: those of a list
 
   Group(Of its_things, Eigen::Index count, std::vector<Quantity> all, decltype(values) compute,
         decltype(parts) its_parts = {})
@@ -73,10 +74,16 @@ struct Column {
   Eigen::Index n;  ///< how many things
   std::optional<std::vector<std::string>> parts;
   Eigen::MatrixXd rows;  ///< (steps, n parts), parts varying fastest
+  h5::Shape extents{};   ///< of the parts in the file; none: those of a list
 
   /// Extents in the file.
   [[nodiscard]] h5::Shape shape() const {
-    return parts ? h5::Shape{rows.rows(), n, std::ssize(*parts)} : h5::Shape{rows.rows(), n};
+    h5::Shape all{rows.rows(), n};
+    if (!extents.empty())
+      all.insert(all.end(), extents.begin(), extents.end());
+    else if (parts)
+      all.push_back(std::ssize(*parts));
+    return all;
   }
 };
 
@@ -107,7 +114,8 @@ class Columns {
     const Eigen::Index steps = std::ssize(increments);
     const std::size_t first = all_.size();
     for (const auto& quantity : group.quantities)
-      all_.push_back({quantity, group.of, group.n, group.parts, Eigen::MatrixXd(steps, group.n_of_each())});
+      all_.push_back(
+          {quantity, group.of, group.n, group.parts, Eigen::MatrixXd(steps, group.n_of_each()), group.extents});
     for (Eigen::Index step = 0; step < steps && !group.quantities.empty(); ++step) {
       const Eigen::MatrixXd values = group.values(increments[step]);
       for (std::size_t i = 0; i < group.quantities.size(); ++i)

@@ -70,6 +70,16 @@ struct WaveRim {
 /// The outline of a sheet.
 using Border = std::vector<pfem::OutlinePiece>;
 
+/// A part of a sheet as a beam along an axis, between rows of fasteners and changes of its section. Properties are
+/// means over the bay, holes filled.
+struct Bay {
+  std::string direction;           ///< "x" or "y"
+  double from, to;                 ///< its ends, length
+  double width, thickness;         ///< length
+  double membrane, bending;        ///< E A of tension, force; E I of cylindrical bending, force length^2
+  int held_from = 0, held_to = 0;  ///< 1 where a support or an external is on that end of the sheet
+};
+
 /// Places at which forces act on a plate; empty in a file before these had them.
 struct Places {
   Eigen::MatrixXd disc = Eigen::MatrixXd(0, 2);            ///< (m, 2) x and y of each disc, length
@@ -99,6 +109,7 @@ struct UnitCases {
   std::vector<ContactRim> contact{};          ///< in the order of the holes
   std::vector<WaveRim> waves{};               ///< rims of `contact`, then others in the order of the holes
   Border border{};                            ///< none in a file before these had one
+  std::vector<Bay> bays{};                    ///< along x, then along y, ascending; none if not known
   Places places{};
   Eigen::VectorXd expansion{};                ///< (3) free strain x, y, xy (of the tensor) per degree; (0) not known
   std::vector<std::string> friction_hole;     ///< (h)

@@ -30,7 +30,7 @@ namespace {
 using h5::any;
 using h5::Column;
 
-const h5::Format result_format{"joint-result", 1, 18};
+const h5::Format result_format{"joint-result", 1, 19};
 
 /// Reads the columns of a field. Files before version 1.13 do not have the free parts.
 void read_columns(h5::Reader& file, const std::string& group, PlateHistory& a, Eigen::Index steps, const Units& units) {

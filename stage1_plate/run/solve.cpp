@@ -68,6 +68,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = unknowns.dofs;
   a.places = places_of(scene, plate, problem);
+  a.bays = bays_of(scene, plate, a.border, a.places);
   if (scene.expansion) {
     a.expansion.resize(3);
     a.expansion << (*scene.expansion)(0, 0), (*scene.expansion)(1, 1), (*scene.expansion)(0, 1);

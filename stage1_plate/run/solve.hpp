@@ -80,6 +80,11 @@ struct SolvedPlate {
 /// The summary on stdout: size and degrees. @param file Path of the written file.
 [[nodiscard]] std::string summary(const SolvedPlate& plate, const std::string& file);
 
+/// The bays of the sheet as a beam along x and along y; none in plane strain.
+/// @param border Its outline. @param places Of its discs, at whose rows bays end.
+[[nodiscard]] std::vector<formats::Bay> bays_of(const PlateScene& scene, const PlateMesh& plate,
+                                                const formats::Border& border, const formats::Places& places);
+
 /// Places at which discs, externals and supports act on the plate.
 [[nodiscard]] formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/LU>
+#include <cmath>
 #include <vector>
 
 #include "common/pfem/material.hpp"
@@ -54,15 +55,17 @@ Material read_laminate(const std::string& id, const Value& value, pfem::Analysis
     value.at("plies").fail("a laminate in plane strain", "only in plane stress");
   const auto plies = read_plies(value.at("plies"));
   Material laminate{id, {}, {}};
-  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(), coupling = stiffness;  // A and B of laminate theory
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(), coupling = stiffness, bending = stiffness;  // A, B, D
   for (const Ply& ply : plies) laminate.stack += ply.thickness;
   double z = -laminate.stack / 2;
   for (const Ply& ply : plies) {
     stiffness += ply.thickness * ply.elasticity;
     coupling += ply.thickness * (z + ply.thickness / 2) * ply.elasticity;
+    bending += (std::pow(z + ply.thickness, 3) - std::pow(z, 3)) / 3 * ply.elasticity;
     z += ply.thickness;
   }
   laminate.elasticity = stiffness / laminate.stack;
+  laminate.in_bending = 12 / std::pow(laminate.stack, 3) * bending;
   laminate.expansion = expansion_of(plies, stiffness);
   laminate.coupling = coupling.cwiseAbs().maxCoeff() / (stiffness.maxCoeff() * laminate.stack);
   return laminate;

@@ -22,6 +22,9 @@ struct Material {
   /// How much a laminate couples: the largest entry of B over the largest of A and the thickness; 0 of a symmetric
   /// stack.
   double coupling = 0;
+  /// Of a laminate: the elasticity of a homogeneous sheet that is as stiff in bending, 12 D over the cube of its
+  /// thickness, stress.
+  std::optional<Eigen::Matrix3d> in_bending{};
 };
 
 /// Strain of free expansion per degree along axis 1 and axis 2, turned to x and y; none if it is not given.

@@ -70,7 +70,7 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
 void check_laminates(const Value& root, const std::vector<Material>& materials, PlateScene& scene) {
   constexpr double same = 1e-6, rounding = 1e-9;
   const auto check = [&](int material, double thickness) {
-    const auto& [id, elasticity, expansion, stack, coupling] = materials[material];
+    const auto& [id, elasticity, expansion, stack, coupling, in_bending] = materials[material];
     if (stack > 0 && std::abs(thickness - stack) > same * stack)
       root.at("geometry")
           .fail(fmt::format("the thickness {:g} of the material \"{}\"", thickness, id),
@@ -236,6 +236,8 @@ PlateScene read_scene(const input::Document& document) {
   scene.units = read_units(root);
   const auto materials = read_materials(root);
   for (const auto& each : materials) scene.elasticity.push_back(each.elasticity);
+  if (read_analysis(root) == pfem::Analysis::plane_stress)
+    for (const auto& each : materials) scene.in_bending.push_back(each.in_bending.value_or(each.elasticity));
   const auto& expansion = materials.front().expansion;
   if (std::ranges::all_of(materials, [&](const auto& each) { return each.expansion == expansion; }))
     scene.expansion = expansion;

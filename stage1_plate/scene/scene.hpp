@@ -112,6 +112,8 @@ struct PlateScene {
   std::string name;
   Units units;
   std::vector<Eigen::Matrix3d> elasticity;  ///< elasticity of each material, stress
+  /// That of a homogeneous sheet which is as stiff in bending as each material, stress; none in plane strain
+  std::vector<Eigen::Matrix3d> in_bending{};
   std::optional<Eigen::Matrix2d>
       expansion{};  ///< strain in x and y per degree; none if not given, or not the same of all
   std::vector<std::string> coupled_laminates{};  ///< materials that bend as they stretch, which the model does not

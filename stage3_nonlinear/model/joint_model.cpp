@@ -42,6 +42,13 @@ std::vector<formats::UnitCases> read_unit_cases(const JointScene& scene) {
   return all;
 }
 
+/// True if the file of a plate tells what it is as a beam along all axes, and where forces act on it.
+bool is_beam(const PlateModel& plate, const std::vector<int>& axes) {
+  return plate.places.is_known() && std::ranges::all_of(axes, [&](int axis) {
+           return std::ranges::count(plate.bays, rim::axis_names[axis], &formats::Bay::direction) > 0;
+         });
+}
+
 std::string quoted(const Units& units) { return fmt::format("length \"{}\", force \"{}\"", units.length, units.force); }
 
 Units common_units(const JointScene& scene, const std::vector<formats::UnitCases>& all) {
@@ -256,6 +263,9 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, files[i],
                                       read_from(scene.plates[i], formats::read_plate_matrices), model.p, model.axes));
+  const bool bends = scene.bending.is_wanted &&
+                     std::ranges::all_of(model.plates, [&](const auto& plate) { return is_beam(plate, model.axes); });
+  for (auto& plate : model.plates) plate.bends = bends;
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
   for (const auto& each : scene.cases) (void)parameters_of(model, scene, each);  // checks them
   return model;

@@ -56,6 +56,7 @@ struct PlateModel : formats::PlateProperties, PlateDegree {
   std::vector<std::shared_ptr<const ContactWaves>> contact_waves{};  ///< (g) the waves of higher order, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};    ///< of each of `waves`, if it has stresses
   std::vector<MatrixXd> wave_rows{};  ///< PlateCases::W of all rims at the joint's degree and the one before
+  bool bends = false;                 ///< secondary bending of the joint is computed
   bool peaks_alone = false;           ///< no errors of hoop stresses and no check of friction against the slip
 
   /// True if the peaks of hoop stresses have error bars.

@@ -8,7 +8,7 @@
 #include "common/count.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/output.hpp"
-#include "stage3_nonlinear/results/hole_quantities.hpp"
+#include "stage3_nonlinear/results/joint_quantities.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -24,10 +24,12 @@ std::vector<std::string> heads(const JointModel& joint, const formats::JointResu
     for (const auto& direction : a.direction)
       if (a.direction.size() > 1) heads.push_back(with_unit(vector + direction, unit));
   for (const char* side : {"_first", "_second"})
-    for (const auto& each : hole_quantities(joint.plates[0]).quantities) {
-      const std::string unit = unit_of(each.dimension, joint.units);
-      heads.push_back(unit == "1" ? each.envelope + side : with_unit(each.envelope + side, unit));
-    }
+    for (const auto& group : plate_quantities(joint.plates[0]))
+      for (const auto& each : group.quantities) {
+        if (group.of != columns::Of::hole || each.envelope.empty()) continue;
+        const std::string unit = unit_of(each.dimension, joint.units);
+        heads.push_back(unit == "1" ? each.envelope + side : with_unit(each.envelope + side, unit));
+      }
   heads.insert(heads.end(), {with_unit("F_error", force), "event", "joint", "case"});
   return heads;
 }

@@ -40,7 +40,7 @@ void add(const std::string& quantity, const std::string& unit, const std::string
 void add(const columns::Columns& columns, const Units& units,
          const std::function<std::vector<std::string>(columns::Of)>& names, const Eigen::VectorXi& sections,
          std::vector<EnvelopeTable>& tables) {
-  for (const auto& [quantity, of, n, parts, rows] : columns) {
+  for (const auto& [quantity, of, n, parts, rows, extents] : columns) {
     if (quantity.envelope.empty()) continue;
     const auto things = names(of);
     const Index m = parts ? std::ssize(*parts) : 1;

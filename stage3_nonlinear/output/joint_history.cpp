@@ -63,7 +63,7 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
   if (steps > 0)
     for (const auto& load : increments.stiffness[0]) result.load_external.push_back(load.external);
   auto groups = plane_quantities(joint);
-  for (auto& some : {memory_quantities(joint, equations), increment_quantities(increments)})
+  for (auto& some : {memory_quantities(joint, equations), increment_quantities(increments), bending_quantities(joint)})
     groups.insert(groups.end(), some.begin(), some.end());
   result.columns = {groups, all};
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {

@@ -65,6 +65,10 @@ struct MoreStresses {
                                                            const std::vector<JointState>& states,
                                                            const std::vector<CrackErrors>& errors);
 
+/// Warning about the first increment whose secondary bending is not known.
+[[nodiscard]] std::vector<program::Warning> bending_warnings(const JointModel& joint,
+                                                             const std::vector<JointState>& states);
+
 /// Warning about the holes around which the sheet ends, or another hole begins, before a distance.
 [[nodiscard]] std::vector<program::Warning> distance_warnings(const JointModel& joint, double distance);
 

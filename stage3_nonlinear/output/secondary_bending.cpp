@@ -5,78 +5,71 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
+#include <string>
+#include <vector>
 
+#include "stage3_nonlinear/model/disc_rows.hpp"
 #include "stage3_nonlinear/output/output.hpp"
-#include "stage3_nonlinear/strength/bending_factors.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
-/// A sheet of the lap: at its most loaded row, the hole with the largest gross stress, and its highest peak.
-struct LapSheet {
-  double t = 0, E = 0, gross = 0, peak = 0;
-  std::string hole;  ///< of the highest peak
-};
+constexpr double little = 1e-6;  ///< a smaller k_b is rounding
 
-std::optional<LapSheet> loaded_sheet(const PlateModel& plate, const PlateState& state, int axis) {
-  LapSheet found;
-  for (Index i = 0; i < std::ssize(state.rims); ++i) {
-    const HoleState& rim = state.rims[i];
-    const double gross = rim.gross_concentration > 0 ? rim.peak_hoop / rim.gross_concentration : 0;
-    if (rim.peak_hoop > found.peak) found.peak = rim.peak_hoop, found.hole = plate.stresses.rim_hole[i];
-    if (!std::isfinite(gross) || !rim.in_tension || gross <= found.gross) continue;
-    found.t = plate.stresses.rim_thickness[i], found.E = plate.stresses.rim_modulus(i, axis), found.gross = gross;
-  }
-  if (found.gross > 0 && found.t > 0 && found.E > 0) return found;
-  return std::nullopt;
+/// A number for free and one for clamped heads, or that of the heads that were computed.
+std::string by_heads(const MatrixXd& all, Index row, const char* format) {
+  std::vector<std::string> texts;
+  for (Index head = 0; head < all.cols(); ++head)
+    if (!std::isnan(all(row, head))) texts.push_back(fmt::format(fmt::runtime(format), all(row, head)));
+  return fmt::format("{}", fmt::join(texts, " | "));
 }
 
-/// How far the outer rows of fasteners are apart along a direction; none if a fastener is not one of the two sheets
-/// alone, or its hole is not known.
-std::optional<double> overlap_along(const JointModel& joint, const Eigen::Vector2d& along) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const ShearPlane& plane : joint.planes) {
-    const FastenerModel& fastener = joint.fasteners[plane.fastener];
-    if (fastener.grounded || fastener.holes.size() != 2) return std::nullopt;
-    const HoleModel& hole = joint.holes(plane).front();
-    const auto at = joint.described(hole);
-    if (!at) return std::nullopt;
-    const double place = joint.plates[hole.plate].stresses.rim_center.row(*at).dot(along);
-    low = std::min(low, place);
-    high = std::max(high, place);
-  }
-  return high - low;
+/// Row of the largest number that is known; -1 without one above 0.
+Index largest_row(const MatrixXd& all) {
+  Index at = -1;
+  double largest = 0;
+  for (Index i = 0; i < all.rows(); ++i)
+    for (Index k = 0; k < all.cols(); ++k)
+      if (all(i, k) > largest) largest = all(i, k), at = i;
+  return at;
+}
+
+std::string sheet_line(const PlateModel& plate, const PlateBending& its, const Units& units) {
+  const Index row = largest_row(its.moment.cwiseAbs());
+  if (row < 0 || !(its.k_b.row(row).array() >= little).any()) return "";
+  const DiscRow at = disc_rows(plate)[row];
+  std::string text = fmt::format("  {:<24} k_b {} at the row {} = {:.6g}", plate.name, by_heads(its.k_b, row, "{:.4f}"),
+                                 rim::axis_names[at.axis], at.at);
+  const MatrixXd faces = its.lower.cwiseMax(its.upper);
+  if (const Index hole = largest_row(faces); hole >= 0)
+    text +=
+        fmt::format(", largest hoop stress with bending {} {} (hole {}, bending {})", by_heads(faces, hole, "{:.6g}"),
+                    unit(units, -2, 1), plate.stresses.rim_hole[hole], by_heads(its.stress, hole, "{:.6g}"));
+  return text + "\n";
 }
 
 }  // namespace
 
 std::string secondary_bending(const JointModel& joint, const JointState& state) {
-  if (joint.plates.size() != 2) return "";
-  const Eigen::Vector2d force = state.plates[0].by_fasteners;
-  if (force.norm() <= 0.5 * state.transferred_first.sum())
-    return "";  // a doubler takes its load at one end and gives it back at the other
-  const int axis = std::abs(force.x()) >= std::abs(force.y()) ? 0 : 1;
-  const auto overlap = overlap_along(joint, force.normalized());
-  const auto first = loaded_sheet(joint.plates[0], state.plates[0], axis);
-  const auto second = loaded_sheet(joint.plates[1], state.plates[1], axis);
-  if (!overlap || !first || !second) return "";
-  const double N = std::max(first->gross * first->t, second->gross * second->t);
-  const auto factors = bending_factors({first->t, second->t}, {first->E, second->E}, N, *overlap);
-  std::string text = fmt::format(
-      "  secondary bending, which the stresses above do not have, by the neutral line: if nothing supports this single "
-      "lap against bending, outer rows {:.6g} {} apart\n",
-      *overlap, unit(joint.units, 1, 0));
-  for (const std::size_t i : {0, 1}) {
-    const LapSheet& sheet = i == 0 ? *first : *second;
-    text += fmt::format(
-        "  {:<24} bending {:.3f} of the gross stress {:.6g}: {:+.6g} {} at the surface that touches the other sheet, "
-        "where the highest membrane peak is {:.6g} (hole {})\n",
-        joint.plates[i].name, factors[i], sheet.gross, factors[i] * sheet.gross, unit(joint.units, -2, 1), sheet.peak,
-        sheet.hole);
-  }
-  return text;
+  std::string lines;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    if (const PlateBending& its = state.plates[i].bending; its.k_b.size() > 0)
+      lines += sheet_line(joint.plates[i], its, joint.units);
+  if (lines.empty()) return "";
+  const auto larger = [](double x, double y) { return std::fmax(x, y); };  // of those that are known
+  const MatrixXd worst = 100 * state.bending_mismatch.row(0).binaryExpr(state.bending_mismatch.row(1), larger);
+  std::string mismatch;
+  if (worst.array().isFinite().any())
+    mismatch = fmt::format("; its effect on the forces in the plane changed the moments last by {} %",
+                           by_heads(worst, 0, "{:.2g}"));
+  return fmt::format("secondary bending, by free | clamped heads{}:\n{}", mismatch, lines);
+}
+
+std::vector<program::Warning> bending_warnings(const JointModel& joint, const std::vector<JointState>& states) {
+  const auto found = std::ranges::find_if(states, [](const JointState& state) { return state.no_bending != nullptr; });
+  if (found == states.end()) return {};
+  return {{"bending-unknown", fmt::format("{}: secondary bending at increment {}: {}", joint.file,
+                                          found - states.begin() + 1, found->no_bending)}};
 }
 
 }  // namespace fastjoint::stage3

@@ -8,8 +8,8 @@
 
 namespace fastjoint::stage3 {
 
-/// What secondary bending adds by bending_factors, a line for each sheet of a joint of two sheets alone whose fasteners
-/// are in single shear and pull both; empty for other joints and without stresses.
+/// Lines of the secondary bending of a state: of each sheet that bends its largest k_b and its largest peak with
+/// bending; empty without it.
 [[nodiscard]] std::string secondary_bending(const JointModel& joint, const JointState& state);
 
 }  // namespace fastjoint::stage3

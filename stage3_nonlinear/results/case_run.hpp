@@ -22,11 +22,13 @@ struct FollowedCase {
 class CaseRun {
  public:
   /// @param scene Its cases and solver are used; outlives this. @param joint Outlives this.
-  CaseRun(const JointScene& scene, const JointModel& joint) : scene_(scene), joint_(joint) {}
+  CaseRun(const JointScene& scene, const JointModel& joint) : scene_(scene), joint_(joint), bending_(joint, scene) {}
 
   /// Follows a case, and before it those that it comes after, as far as they have not been.
   ///
   /// @param load_factors Of its increments; none: at every event.
+  [[nodiscard]] const Bending& bending() const { return bending_; }
+
   [[nodiscard]] FollowedCase follow(std::size_t at, const std::vector<double>& load_factors, PathOptions options,
                                     const Wanted& wanted);
 
@@ -42,6 +44,7 @@ class CaseRun {
 
   const JointScene& scene_;
   const JointModel& joint_;
+  Bending bending_;
   std::shared_ptr<const CondensedSystem> system_;
   std::vector<std::shared_ptr<const RimProblem>> rims_;
   std::map<std::size_t, std::optional<End>> ends_;  ///< of the cases that others come after

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stage3_nonlinear/results/at_increment.hpp"
+#include "stage3_nonlinear/results/bending.hpp"
 #include "stage3_nonlinear/results/force_errors.hpp"
 #include "stage3_nonlinear/results/joint_numbers.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
@@ -19,9 +20,10 @@ namespace fastjoint::stage3 {
 
 /// Requested results of each increment.
 struct Wanted {
-  double tolerance;               ///< of the solver
-  bool sensitivities = false;     ///< derivatives of forces, and at the last increment those of peaks
-  bool keep_loaded_rims = false;  ///< PlateState::loaded, which takes memory
+  double tolerance;                  ///< of the solver
+  bool sensitivities = false;        ///< derivatives of forces, and at the last increment those of peaks
+  const Bending* bending = nullptr;  ///< computes secondary bending, if wanted
+  bool keep_loaded_rims = false;     ///< PlateState::loaded, which takes memory
 };
 
 /// Results of all increments of a path, computed with the tangent of each solution.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "stage3_nonlinear/results/bending.hpp"
 #include "stage3_nonlinear/results/contact_quantities.hpp"
 #include "stage3_nonlinear/results/crack_quantities.hpp"
 #include "stage3_nonlinear/results/hole_quantities.hpp"
@@ -134,6 +135,7 @@ std::vector<PlateGroup> plate_quantities(const PlateModel& plate) {
   for (auto& group : displacement_quantities(plate)) groups.push_back(std::move(group));
   groups.push_back(crack_quantities(plate));
   groups.push_back(row_quantities(disc_rows(plate)));
+  for (auto& group : bending_quantities(plate)) groups.push_back(std::move(group));
   return groups;
 }
 

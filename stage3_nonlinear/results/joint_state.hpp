@@ -10,6 +10,7 @@
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/crack_state.hpp"
 #include "stage3_nonlinear/results/hole_state.hpp"
+#include "stage3_nonlinear/strength/plate_bending.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -29,6 +30,7 @@ struct PlateState {
   std::vector<HoleState> rims = {};
   std::vector<std::optional<LoadedRim>> loaded = {};
   CrackState cracks = {};
+  PlateBending bending = {};
   // Resultants of the forces on the plate along x and y, force.
   Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
   Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction
@@ -47,6 +49,10 @@ struct JointState {
   double fasteners_out_of_balance = 0;  ///< largest resultant on a fastener that is not grounded
   /// Largest resultant of a plate along an axis without supports according to its file; none without such an axis.
   std::optional<double> plates_out_of_balance;
+  // With secondary bending, by free and by clamped heads (Bending); none without it.
+  MatrixXd bending_mismatch = MatrixXd(0, 2);  ///< (2, 2) of the moments along x, y
+  const char* no_bending = nullptr;            ///< why some of it is not known; null if all is
+  MatrixXd bent_transferred = MatrixXd(0, 2);  ///< (n, 2) as transferred_first, force
 };
 
 /// Sets the state of the rims of a plate, `w`, `waves`, `added` and `loaded`, from its displacements, Lambda and

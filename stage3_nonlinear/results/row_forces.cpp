@@ -15,13 +15,6 @@ struct PlacedForce {
   double from, to, value;
 };
 
-/// Difference of coordinates within which two discs are of one row.
-double tolerance(const PlateModel& plate, int axis) {
-  constexpr double relative = 1e-3;
-  const auto centers = plate.places.disc.col(axis);
-  return relative * (centers.maxCoeff() - centers.minCoeff());
-}
-
 constexpr double negligible_force = 1e-10;  ///< of the largest force: rounding
 
 /// All forces on the sheet along an axis.
@@ -63,26 +56,6 @@ double beyond(const PlacedForces& forces, double section) {
 
 }  // namespace
 
-std::vector<DiscRow> disc_rows(const PlateModel& plate) {
-  std::vector<DiscRow> rows;
-  if (!plate.places.is_known()) return rows;
-  for (const int axis : plate.axes) {
-    std::vector<Index> order;
-    for (Index i = 0; i < std::ssize(plate.discs); ++i)
-      if (plate.axis_of(plate.discs[i]) == axis) order.push_back(i);
-    const auto at = [&](Index disc) { return plate.places.disc(disc, axis); };
-    std::ranges::stable_sort(order, {}, at);
-    double first = -std::numeric_limits<double>::infinity();
-    for (const Index i : order) {
-      if (at(i) - first > tolerance(plate, axis)) rows.push_back({axis, 0, {}}), first = at(i);
-      DiscRow& row = rows.back();
-      row.at += (at(i) - row.at) / double(row.discs.size() + 1);
-      row.discs.push_back(plate.discs[i]);
-    }
-  }
-  return rows;
-}
-
 formats::RowList row_list(const std::vector<DiscRow>& rows) {
   const Index w = std::ssize(rows);
   formats::RowList list{{}, VectorXd(w), Eigen::VectorXi(w)};
@@ -102,11 +75,16 @@ MatrixXd row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, c
     if (i == 0 || axis != rows[i - 1].axis) forces = forces_along(plate, axis, state);
     for (const Index disc : discs) all(i, 0) += state.bearing[disc] + state.friction[disc];
     // Rounding of the places must not put an edge at the row on its other side.
-    const double margin = tolerance(plate, axis) + 1e-9 * std::abs(at);
+    const double margin = row_tolerance(plate, axis) + 1e-9 * std::abs(at);
     all(i, 1) = beyond(forces, at - margin);
     all(i, 2) = beyond(forces, at + margin);
   }
   return all;
+}
+
+VectorXd tensions(const PlateModel& plate, int axis, const PlateState& state, const VectorXd& at) {
+  const PlacedForces forces = forces_along(plate, axis, state);
+  return at.unaryExpr([&](double each) { return beyond(forces, each); });
 }
 
 PlateGroup row_quantities(std::vector<DiscRow> rows) {

@@ -4,20 +4,10 @@
 #include <vector>
 
 #include "common/formats/joint_result.hpp"
+#include "stage3_nonlinear/model/disc_rows.hpp"
 #include "stage3_nonlinear/results/at_increment.hpp"
 
 namespace fastjoint::stage3 {
-
-/// Discs of a sheet whose centres have one coordinate along the axis in which they move.
-struct DiscRow {
-  int axis;                  ///< 0 x, 1 y
-  double at;                 ///< mean coordinate of their centres, length
-  std::vector<Index> discs;  ///< unknowns along the axis
-};
-
-/// The rows of a sheet, of each axis of the joint in ascending order; none if its file does not tell the places.
-/// Centres that differ by less than a thousandth of the extent of all are of one row.
-[[nodiscard]] std::vector<DiscRow> disc_rows(const PlateModel& plate);
 
 [[nodiscard]] formats::RowList row_list(const std::vector<DiscRow>& rows);
 
@@ -25,6 +15,9 @@ struct DiscRow {
 /// over its section just before and just after the row, tension positive; infinite where the section crosses an edge on
 /// which forces act along the axis.
 [[nodiscard]] MatrixXd row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state);
+
+/// Tension over the whole section of a sheet across an axis at each of some coordinates, force; infinite as above.
+[[nodiscard]] VectorXd tensions(const PlateModel& plate, int axis, const PlateState& state, const VectorXd& at);
 
 [[nodiscard]] PlateGroup row_quantities(std::vector<DiscRow> rows);
 

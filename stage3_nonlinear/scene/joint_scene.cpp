@@ -354,7 +354,7 @@ JointScene read_joint_scene(const input::Document& document) {
   const Value root(document);
   input::check_format(root, "joint");
   root.only({"$schema", "format", "version", "name", "units", "plates", "laws", "fasteners", "loads", "temperatures",
-             "fastener_temperature", "increments", "cases", "initial", "solver", "margins"});
+             "fastener_temperature", "increments", "cases", "initial", "solver", "margins", "bending"});
   JointScene scene;
   scene.file = document.file;
   if (const auto name = root.find("name")) scene.name = name->text();
@@ -370,6 +370,7 @@ JointScene read_joint_scene(const input::Document& document) {
   for (const auto& its : scene.cases)
     if (!its.name.empty()) cases.push_back(its.name);
   if (const auto margins = root.find("margins")) scene.checks = read_margins(*margins, cases);
+  if (const auto bending = root.find("bending")) scene.bending = read_bending(*bending, scene.plates);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   return scene;

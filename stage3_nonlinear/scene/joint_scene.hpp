@@ -13,6 +13,7 @@
 #include "common/program/warning.hpp"
 #include "common/units.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
+#include "stage3_nonlinear/scene/bending_scene.hpp"
 #include "stage3_nonlinear/scene/margin_scene.hpp"
 
 namespace fastjoint::stage3 {
@@ -124,6 +125,7 @@ struct JointScene {
   std::vector<FastenerScene> fasteners;
   std::vector<CaseScene> cases;
   std::vector<CheckScene> checks{};  ///< of "margins"
+  BendingScene bending{};
   InitialScene initial;
   SolverScene solver;
   std::vector<program::Warning> warnings;

@@ -23,7 +23,7 @@ const std::array<std::vector<const char*>, 6> own_keys{{{"F_br", "edge_distance"
                                                         {"F_tu"},
                                                         {"F_su", "edge_distance"},
                                                         {"polygon"},
-                                                        {"limit"}}};
+                                                        {"limit", "bending"}}};
 
 Allowable read_allowable(const Value& value) {
   if (!value.is_array()) return {{}, {value.number(input::positive)}};
@@ -102,6 +102,7 @@ CheckScene read_check(const Value& value, const std::vector<std::string>& known,
   else
     check.allowable = {{}, {(force ? *force : value.at(own_keys[int(check.kind)].front())).number(input::positive)}};
   if (const auto e = value.find("edge_distance")) check.edge_distance = e->number(input::positive);
+  if (const auto bending = value.find("bending")) check.with_bending = bending->boolean();
   if (const auto d = value.find("diameter")) check.diameter = d->number(input::positive);
   return check;
 }

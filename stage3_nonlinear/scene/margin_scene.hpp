@@ -33,6 +33,7 @@ struct CheckScene {
   std::vector<std::string> of;  ///< plates, "plate:hole", or fasteners; empty: all
   Allowable allowable;          ///< stress; of fastener shear with `is_force` the force of a shear plane
   bool is_force = false;
+  bool with_bending = false;                       ///< of a peak: the stress of secondary bending is added
   std::optional<double> edge_distance;             ///< of the hole's centre along the load, length
   std::optional<double> diameter;                  ///< of the fastener, length
   std::vector<std::pair<double, double>> polygon;  ///< (bypass stress, bearing stress), around the origin

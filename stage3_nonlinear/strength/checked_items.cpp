@@ -108,7 +108,8 @@ struct CheckedHole {
   }
   [[nodiscard]] Applied peak(const JointColumns& all, Index step) const {
     const double value = check->allowable.at(infinite);
-    return {of(all, "rim/peak_hoop", step), value, fmt::format("limit = {:g}", value)};
+    return {of(all, check->with_bending ? "bending/peak" : "rim/peak_hoop", step), value,
+            fmt::format("limit = {:g}", value)};
   }
 };
 
@@ -198,6 +199,9 @@ class Collector {
       if (index_of(known, each) == count_of(known))
         fail(fmt::format("\"{}\" is no plate and no hole with stresses", each),
              fmt::format("{}", fmt::join(known, ", ")));
+    if (check_->with_bending && !joint_.plates.front().bends)
+      fail("\"bending\": true of a joint without secondary bending",
+           "a joint without \"bending\": \"none\", and matrices of this version of sheets in plane stress");
     if (holes.empty())
       fail("no hole with stresses", "matrices of stage2_extract without --loads-only, at their highest degree");
     for (const auto& [plate, rim] : holes) of_hole(plate, rim);

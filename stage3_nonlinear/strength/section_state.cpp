@@ -29,7 +29,9 @@ SectionState section_state(const HoleSections& sections, const std::vector<Secti
       is_known ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest) : infinite;
   const Principal net = largest_tension(sections.net(forces[0], T, largest));
   state.net_stress = net.value;
-  const Principal gross = larger_principal(sections.gross(forces[0], T, largest));
+  const MeanStress more_loaded = sections.gross(forces[0], T, largest);
+  state.gross_stress = more_loaded.head<2>();
+  const Principal gross = larger_principal(more_loaded);
   const double carried = std::abs(load(gross));
   // The peak has nothing to do with what the sections carry if that is less than this part of the load.
   constexpr double min_carried = 1e-3;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "stage3_nonlinear/strength/section_stress.hpp"
@@ -15,7 +16,9 @@ struct SectionState {
   double bypass_stress = 0;                               ///< bypass load over the gross section, tension positive
   double bypass_across = 0;                               ///< the other principal stress of what passes by
   double bypass_direction = 0, net_direction = 0;         ///< of these two, degrees
-  bool in_tension = false;                                ///< the section used for the concentrations is in tension
+  /// Normal stress of the more loaded sections across x and across y; not finite where it is not known.
+  Eigen::Vector2d gross_stress{NAN, NAN};
+  bool in_tension = false;  ///< the section used for the concentrations is in tension
 };
 
 /// Bypass load and its error, net stress, and concentrations (docs/theory.md, section 11.6).

@@ -195,6 +195,9 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
           fmt::format("no plate's matrices hold stresses at p = {}; allowed: matrices of stage2_extract without "
                       "--loads-only, at their highest degree",
                       joint.p));
+  require("bending", joint.plates.front().bends,
+          "the joint has no secondary bending; allowed: without \"bending\": \"none\", and with matrices of sheets in "
+          "plane stress that have \"bay\"");
   require("cracks", std::ranges::any_of(joint.plates, [](const auto& plate) { return !plate.cracks.tips.empty(); }),
           "no plate has cracks; allowed: at least one plate with \"cracks\" in its PLATE.json");
   require("margins", !study.joint.checks.empty(),

@@ -16,7 +16,9 @@ std::vector<columns::Output> all_outputs() {
         if (quantity.output) outputs.push_back(*quantity.output);
   };
   add(plane_quantities({}));
-  add(plate_quantities({}));
+  PlateModel plate;
+  plate.bends = true;
+  add(plate_quantities(plate));
   return outputs;
 }
 
@@ -148,6 +150,13 @@ bool StudyOutputs::need_stresses() const {
     return its.plate >= 0 && of_plates_[its.plate][its.group].of == columns::Of::hole;
   };
   return !items_.empty() || std::ranges::any_of(sources_, is_of_hole);
+}
+
+bool StudyOutputs::need_bending() const {
+  const auto is_checked = [](const CheckedItem& item) { return item.check->with_bending; };
+  return std::ranges::count(kinds_, std::string_view("bending"),
+                            [](const auto& its) { return std::string_view(its.output.asked); }) > 0 ||
+         std::ranges::any_of(items_, is_checked);
 }
 
 void StudyOutputs::take(const VectorXd& its, VectorXd& all) const {

@@ -36,6 +36,8 @@ class StudyOutputs {
   [[nodiscard]] Index size() const { return size_; }
   /// True if some follow from the stresses of plates: those of holes and of checks.
   [[nodiscard]] bool need_stresses() const;
+  /// True if some follow from secondary bending.
+  [[nodiscard]] bool need_bending() const;
   /// The numbers of one load case; a utilisation that is not known is infinite.
   [[nodiscard]] VectorXd numbers(const JointAt& at, const std::string& case_name) const;
   /// Takes the numbers of a case into the envelope of those before.

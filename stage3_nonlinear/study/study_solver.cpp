@@ -18,7 +18,8 @@ CaseSolver::CaseSolver(const JointModel& joint, const JointScene& scene, std::si
       options_{scene.initial, scene.solver},
       system_(std::move(system)) {
   rims_ = equations_of(scene, at).rims;
-  middle_ = from_no_load(scene);
+  std::vector<History> none;
+  middle_ = from_no_load(scene, none);
   if (!middle_) return;
   const JointEquations equations = equations_of(scene, at);
   (void)contact_state(equations, middle_->c);
@@ -43,7 +44,7 @@ std::optional<PathStep> CaseSolver::from_middle(const JointEquations& equations,
   return std::nullopt;
 }
 
-std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const {
+std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene, std::vector<History>& history) const {
   std::vector<std::size_t> chain{at_};
   while (scene.cases[chain.back()].after) chain.push_back(*scene.cases[chain.back()].after);
   PathOptions options = options_;
@@ -54,8 +55,10 @@ std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const 
     path = {};
     Walk walk(equations, options);
     if (!walk.start(path)) return std::nullopt;
-    for (const double factor : scene.cases[*at].wanted_load_factors())
+    for (const double factor : scene.cases[*at].wanted_load_factors()) {
+      history = walk.equations().history;
       if (!walk.reach(factor) || !walk.record(path, {})) return std::nullopt;
+    }
     options.start = path.steps.back().c;
   }
   return std::move(path.steps.back());
@@ -63,7 +66,7 @@ std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const 
 
 StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const std::vector<std::size_t>& cases,
                          StudyOutputs outputs)
-    : joint_(joint), tolerance_(scene.solver.tolerance), outputs_(std::move(outputs)) {
+    : joint_(joint), bending_(joint, scene), tolerance_(scene.solver.tolerance), outputs_(std::move(outputs)) {
   const Held held = parameters_of(joint, scene, scene.cases[cases.front()]).held;
   const auto system = std::make_shared<const CondensedSystem>(condense(joint, held));
   for (const std::size_t at : cases) cases_.emplace_back(joint, scene, at, system);
@@ -72,8 +75,9 @@ StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const
 
 VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step,
                               const std::string& case_name) const {
-  const JointState state = joint_state(joint_, equations, step);
+  JointState state = joint_state(joint_, equations, step);
   if (imbalance(equations, step, state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
+  if (outputs_.need_bending()) bending_.add(equations, step, state);
   return outputs_.numbers({joint_, equations, step, state, 0}, case_name);
 }
 

@@ -39,9 +39,9 @@ class CaseSolver {
   /// @param away Change of the contact coordinates from those of the middle to the start of the solver, (r); empty: 0.
   template <class Use>
   bool solve(const JointScene& scene, const VectorXd& away, Use use) const {
-    const JointEquations equations = equations_of(scene, at_);
+    JointEquations equations = equations_of(scene, at_);
     auto step = from_middle(equations, away);
-    if (!step) step = from_no_load(scene);
+    if (!step) step = from_no_load(scene, equations.history);
     if (step) use(equations, *step);
     return step.has_value();
   }
@@ -51,7 +51,8 @@ class CaseSolver {
   [[nodiscard]] JointEquations equations_of(const JointScene& scene, std::size_t at) const;
   [[nodiscard]] std::optional<PathStep> from_middle(const JointEquations& equations, const VectorXd& away) const;
   /// Follows the cases before this and this from no load through all increments.
-  [[nodiscard]] std::optional<PathStep> from_no_load(const JointScene& scene) const;
+  /// @param history Is set to that at the start of the last increment.
+  [[nodiscard]] std::optional<PathStep> from_no_load(const JointScene& scene, std::vector<History>& history) const;
 
   const JointModel& joint_;
   std::size_t at_;
@@ -91,6 +92,7 @@ class StudySolver {
                                  const std::string& case_name) const;
 
   const JointModel& joint_;
+  Bending bending_;
   double tolerance_;
   std::vector<CaseSolver> cases_;
   StudyOutputs outputs_;
