@@ -205,30 +205,27 @@ void border_datasets(File& file, Data<File, Border>& a, const Units& units, cons
 template void border_datasets<h5::Writer>(h5::Writer&, const Border&, const Units&, const std::string&);
 template void border_datasets<h5::Reader>(h5::Reader&, Border&, const Units&, const std::string&);
 
-namespace {
-
-/// The datasets of UnitCases::bays; a file has all or none.
-template <class File, class Bays>
-void bay_datasets(File& file, Bays& a, const Units& units) {
+template <class File>
+void bay_datasets(File& file, Data<File, std::vector<Bay>>& a, const Units& units, const std::string& group) {
   using h5::Column;
-  file("bay/direction", Column{a, &Bay::direction}, {h5::any}, "1", "axis, x or y, of each bay of the sheet as a beam",
-       h5::or_else(""));
+  file(group + "bay/direction", Column{a, &Bay::direction}, {h5::any}, "1",
+       "axis, x or y, of each bay of the sheet as a beam", h5::or_else(""));
   const Eigen::Index n = std::ssize(a);
   const std::string length = unit(units, 1, 0);
   const auto ends = [](auto& bay) { return std::tie(bay.from, bay.to); };
-  file("bay/ends", Column{a, ends}, {n, 2}, length, "coordinates between which it lies", h5::or_else(0));
-  file("bay/width", Column{a, &Bay::width}, {n}, length, "mean width, holes filled", h5::positive.or_else(1));
-  file("bay/thickness", Column{a, &Bay::thickness}, {n}, length, "mean thickness", h5::positive.or_else(1));
-  file("bay/membrane", Column{a, &Bay::membrane}, {n}, unit(units, 0, 1), "stiffness E A in tension",
+  file(group + "bay/ends", Column{a, ends}, {n, 2}, length, "coordinates between which it lies", h5::or_else(0));
+  file(group + "bay/width", Column{a, &Bay::width}, {n}, length, "mean width, holes filled", h5::positive.or_else(1));
+  file(group + "bay/thickness", Column{a, &Bay::thickness}, {n}, length, "mean thickness", h5::positive.or_else(1));
+  file(group + "bay/membrane", Column{a, &Bay::membrane}, {n}, unit(units, 0, 1), "stiffness E A in tension",
        h5::positive.or_else(1));
-  file("bay/bending", Column{a, &Bay::bending}, {n}, unit(units, 2, 1), "stiffness E I in cylindrical bending",
+  file(group + "bay/bending", Column{a, &Bay::bending}, {n}, unit(units, 2, 1), "stiffness E I in cylindrical bending",
        h5::positive.or_else(1));
   const auto held = [](auto& bay) { return std::tie(bay.held_from, bay.held_to); };
-  file("bay/held", Column{a, held}, {n, 2}, "1", "1 where a support or an external is on that end of the sheet, else 0",
-       h5::integers(0, 1).or_else(0));
+  file(group + "bay/held", Column{a, held}, {n, 2}, "1",
+       "1 where a support or an external is on that end of the sheet, else 0", h5::integers(0, 1).or_else(0));
 }
-
-}  // namespace
+template void bay_datasets<h5::Writer>(h5::Writer&, const std::vector<Bay>&, const Units&, const std::string&);
+template void bay_datasets<h5::Reader>(h5::Reader&, std::vector<Bay>&, const Units&, const std::string&);
 
 template <class File>
 void tip_datasets(File& file, Data<File, std::vector<pfem::CrackTip>>& a, const Units& units, const std::string& group,

@@ -156,6 +156,10 @@ void contact_datasets(File& file, Data<File, std::vector<ContactRim>>& a, const 
 template <class File>
 void border_datasets(File& file, Data<File, Border>& a, const Units& units, const std::string& group = "");
 
+/// The datasets of UnitCases::bays, in a group (its name ends with "/") or in the root; a file has all or none.
+template <class File>
+void bay_datasets(File& file, Data<File, std::vector<Bay>>& a, const Units& units, const std::string& group = "");
+
 /// The datasets of the tips of cracks, in a group (its name ends with "/") or in the root.
 template <class File>
 void tip_datasets(File& file, Data<File, std::vector<pfem::CrackTip>>& a, const Units& units,

@@ -105,6 +105,7 @@ void write_things(h5::Writer& file, const std::string& group, const PlateHistory
        "load factor at which a rim with interference first loses full contact", h5::not_negative);
   write_holes(file, group + "rim/", a.holes, units);
   border_datasets(file, a.border, units, group);
+  bay_datasets(file, a.bays, units, group);
   tip_datasets(file, a.tips, units, group, false);
   const Eigen::Index w = std::ssize(a.rows.direction);
   file(group + "row/direction", a.rows.direction, {w}, "1", "x or y, for each row of holes with that coordinate");

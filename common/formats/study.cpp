@@ -4,7 +4,7 @@
 namespace fastjoint::formats {
 namespace {
 
-const h5::Format block_format{"study-block", 1, 0}, study_format{"study-result", 1, 2};
+const h5::Format block_format{"study-block", 1, 0}, study_format{"study-result", 1, 3};
 
 template <class File, class Origin>
 void file_datasets(File& file, Origin& a) {

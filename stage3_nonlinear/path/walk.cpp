@@ -59,21 +59,20 @@ bool Walk::jump(const Place& from) {
   return solve_from_here(from.load_factor);
 }
 
-PathStep Walk::step(const SolvedPoint& point) const {
-  const ContactState& state = point.state();
-  const VectorXd r = equations_.residual(state, point.load_factor());
+PathStep Walk::step(const Place& at, const ContactState& state, const TangentCheck& check) const {
+  const VectorXd r = equations_.residual(state, at.load_factor);
   const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
-  const double scale = std::max(force_scale(equations_, point.load_factor()), rounding_ / options_.solver.tolerance);
-  return {.load_factor = point.load_factor(),
+  const double scale = std::max(force_scale(equations_, at.load_factor), rounding_ / options_.solver.tolerance);
+  return {.load_factor = at.load_factor,
           .F = state.F.head(planes),
           .delta = state.delta.head(planes),
           .iterations = iterations_,
           .residual = r.lpNorm<Eigen::Infinity>() / scale,
-          .check = point.check(),
+          .check = check,
           .rim_F = state.F.tail(rims),
           .moments = state.delta.tail(rims),
           .Lambda = state.Lambda,
-          .c = point.c(),
+          .c = at.c,
           .scale = scale};
 }
 

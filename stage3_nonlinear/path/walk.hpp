@@ -43,6 +43,8 @@ class Walk {
   }
 
   [[nodiscard]] PathStep step() const { return step(SolvedPoint(equations_, here_.load_factor, here_.c)); }
+  /// The same without a check of the tangent, which takes a factorisation.
+  [[nodiscard]] PathStep unchecked_step() const { return step(here_, contact_state(equations_, here_.c), {}); }
   [[nodiscard]] const JointEquations& equations() const { return equations_; }
   /// Appends the state to a path as its next increment and updates the histories; false if PathOptions::each ends the
   /// path.
@@ -53,7 +55,10 @@ class Walk {
   [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
 
  private:
-  [[nodiscard]] PathStep step(const SolvedPoint& point) const;
+  [[nodiscard]] PathStep step(const SolvedPoint& point) const {
+    return step({point.load_factor(), point.c()}, point.state(), point.check());
+  }
+  [[nodiscard]] PathStep step(const Place& at, const ContactState& state, const TangentCheck& check) const;
   /// The smaller friction reserve: that of the sides that bear at the last load factor, or of those that would bear
   /// with rigid fasteners without friction.
   [[nodiscard]] std::optional<double> locking(double load_factor) const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/bending.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -41,6 +39,25 @@ class FixedPoint {
   MatrixXd dr_{0, 0}, dG_{0, 0};
 };
 
+/// Mean stress of a sheet on a side of a row, 0 before it, 1 behind it; 0 beyond its end.
+double gross_stress(const StackSheet& sheet, const VectorXd& N, Index row, int side) {
+  const Index segment = sheet.beside(row, side);
+  return segment < 0 ? 0 : N[segment] / (sheet.width[segment] * sheet.thickness[segment]);
+}
+
+/// The side of a row on which the sheet is more loaded; of equal ones that before it.
+int more_loaded_side(const StackSheet& sheet, const VectorXd& N, Index row) {
+  constexpr double equal = 1 + 1e-9;
+  const double before = std::abs(gross_stress(sheet, N, row, 0)), behind = std::abs(gross_stress(sheet, N, row, 1));
+  return behind > equal * before ? 1 : 0;
+}
+
+/// Stress on the lower face of a sheet under a moment on a side of a row; 0 beyond its end.
+double bending_stress(const StackSheet& sheet, Index row, int side, double moment) {
+  const Index segment = sheet.beside(row, side);
+  return segment < 0 ? 0 : 6 * moment / (sheet.width[segment] * sheet.thickness[segment] * sheet.thickness[segment]);
+}
+
 /// Concentration of bending at each hole of a plate; NaN where thickness or Poisson's ratio are not known.
 VectorXd concentrations(const PlateModel& plate) {
   const formats::PlateStresses& a = plate.stresses;
@@ -55,108 +72,14 @@ VectorXd concentrations(const PlateModel& plate) {
 
 }  // namespace
 
-Bending::Bending(const JointModel& joint, const JointScene& scene) : joint_(joint), scene_(scene) {
-  if (!joint.plates.front().bends) return;
-  check_order();
-  for (Index d = 0; d < joint.n_directions(); ++d) add_axis(d);
+Bending::Bending(const JointModel& joint, const JointScene& scene)
+    : joint_(joint), scene_(scene), axes_(axis_stacks(joint, scene)) {
   for (const auto& plate : joint.plates) K_.push_back(concentrations(plate));
-}
-
-/// Sheets follow from lowest to highest as fasteners name them; a sheet above itself is a contradiction.
-void Bending::check_order() const {
-  const Index n = std::ssize(joint_.plates);
-  Eigen::MatrixXi above = Eigen::MatrixXi::Zero(n, n);
-  for (const auto& plane : joint_.planes) {
-    if (joint_.is_to_ground(plane)) continue;
-    const Index lower = joint_.first_hole(plane).plate, upper = joint_.second_hole(plane).plate;
-    above(lower, upper) = 1;
-    for (Index i = 0; i < n; ++i)  // all below the lower are below all above the upper
-      for (Index k = 0; k < n; ++k)
-        if ((i == lower || above(i, lower) != 0) && (k == upper || above(upper, k) != 0)) above(i, k) = 1;
-    if (above.diagonal().isZero()) continue;
-    refuse(scene_.fasteners[plane.fastener].where + "/between",
-           fmt::format("\"{}\" below \"{}\", against the order of fasteners before", joint_.plates[lower].name,
-                       joint_.plates[upper].name),
-           "the holes of every fastener from the lowest sheet to the highest, or \"bending\": \"none\"");
-  }
-}
-
-StackSheet Bending::sheet(const PlateModel& plate, int axis, Index& first_row) const {
-  const double tolerance = row_tolerance(plate, axis);
-  std::vector<std::pair<double, bool>> nodes;  // coordinates, and whether a row is there
-  const auto rows = disc_rows(plate);
-  first_row = -1;
-  for (Index i = 0; i < std::ssize(rows); ++i) {
-    if (rows[i].axis != axis) continue;
-    if (first_row < 0) first_row = i;
-    nodes.emplace_back(rows[i].at, true);
-  }
-  const auto add = [&](double at) {
-    const auto is_there = [&](const auto& node) { return std::abs(node.first - at) <= tolerance; };
-    if (std::ranges::none_of(nodes, is_there)) nodes.emplace_back(at, false);
-  };
-  std::vector<formats::Bay> bays;
-  for (const auto& bay : plate.bays)
-    if (bay.direction == rim::axis_names[axis]) bays.push_back(bay);
-  for (const auto& bay : bays) add(bay.from), add(bay.to);
-  for (Index i = 0; i < plate.n_externals(); ++i)
-    if (plate.external_axis[i] == axis) add(plate.places.external.row(i).mean());
-  for (Index i = 0; i < plate.n_tractions(); ++i)
-    if (plate.traction_axis[i] == axis && !plate.is_moment(i)) add(plate.places.traction.row(i).mean());
-  std::ranges::sort(nodes);
-  StackSheet sheet;
-  const Index n = std::ssize(nodes);
-  sheet.at.resize(n), sheet.EI.resize(n - 1), sheet.width.resize(n - 1), sheet.thickness.resize(n - 1);
-  for (Index i = 0; i < n; ++i) {
-    sheet.at[i] = nodes[i].first;
-    if (nodes[i].second) sheet.rows.push_back(i);
-    if (i == 0) continue;
-    const double middle = (nodes[i - 1].first + nodes[i].first) / 2;
-    const auto found = std::ranges::find_if(bays, [&](const auto& bay) { return middle < bay.to; });
-    const formats::Bay& bay = found == bays.end() ? bays.back() : *found;
-    sheet.EI[i - 1] = bay.bending, sheet.width[i - 1] = bay.width, sheet.thickness[i - 1] = bay.thickness;
-  }
-  const auto given = scene_.bending.ends.find(plate.name);
-  for (const int end : {0, 1}) {
-    const bool is_held = end == 0 ? bays.front().held_from != 0 : bays.back().held_to != 0;
-    const auto its = given == scene_.bending.ends.end() ? std::nullopt : given->second[2 * axis + end];
-    sheet.ends[end] = its.value_or(is_held ? EndHold::hinged : EndHold::free);
-  }
-  return sheet;
-}
-
-void Bending::add_axis(Index direction) {
-  Axis its{direction, joint_.axes[direction], {}, {}, {}};
-  std::vector<std::vector<DiscRow>> rows;
-  for (const auto& plate : joint_.plates) {
-    its.stack.sheets.push_back(sheet(plate, its.axis, its.first_row.emplace_back()));
-    rows.push_back(disc_rows(plate));
-  }
-  const auto row_of = [&](const HoleModel& hole) {
-    const auto& all = rows[hole.plate];
-    const auto found = std::ranges::find_if(
-        all, [&](const DiscRow& row) { return std::ranges::count(row.discs, hole.disc + direction) > 0; });
-    return found == all.end() ? -1 : found - all.begin() - its.first_row[hole.plate];
-  };
-  for (const auto& plane : joint_.planes) {
-    const HoleModel& first = joint_.first_hole(plane);
-    StackLink link{first.plate, row_of(first), -1, -1};
-    if (!joint_.is_to_ground(plane)) {
-      const HoleModel& second = joint_.second_hole(plane);
-      link.upper = second.plate, link.upper_row = row_of(second);
-    }
-    auto& links = its.stack.links;
-    const bool moves = link.lower_row >= 0 && (link.upper < 0 || link.upper_row >= 0);
-    const Index at = std::ranges::find(links, link) - links.begin();
-    if (moves && at == std::ssize(links)) links.push_back(link);
-    its.link_of_plane.push_back(moves ? at : -1);
-  }
-  axes_.push_back(std::move(its));
 }
 
 std::vector<StackLoads> Bending::loads(const JointState& state) const {
   std::vector<StackLoads> all;
-  for (const Axis& its : axes_) {
+  for (const AxisStack& its : axes_) {
     StackLoads& loads = all.emplace_back();
     for (Index i = 0; i < std::ssize(joint_.plates); ++i)
       loads.N.push_back(tensions(joint_.plates[i], its.axis, state.plates[i], its.stack.sheets[i].middles()));
@@ -187,7 +110,7 @@ Bending::Shapes Bending::bent(const std::vector<StackLoads>& loads, Heads heads)
   return shapes;
 }
 
-VectorXd Bending::shortened(const Axis& its, const Shapes& shapes, Index at, Index plate) const {
+VectorXd Bending::shortened(const AxisStack& its, const Shapes& shapes, Index at, Index plate) const {
   const VectorXd& all = shapes[at].shortened[plate];
   const auto& places = joint_.plates[plate].places;
   const double from = places.support_middle(its.axis, 0), to = places.support_middle(its.axis, 1);
@@ -199,7 +122,7 @@ VectorXd Bending::shortened(const Axis& its, const Shapes& shapes, Index at, Ind
   return (all[fixed] - all.array()).matrix();
 }
 
-Index Bending::nearest(const Axis& its, Index plate, Index external) const {
+Index Bending::nearest(const AxisStack& its, Index plate, Index external) const {
   Index node = 0;
   (its.stack.sheets[plate].at.array() - joint_.plates[plate].places.external.row(external).mean())
       .abs()
@@ -212,7 +135,7 @@ VectorXd Bending::displaced(const Shapes& shapes, const JointEquations& equation
   const auto places = loads_of(joint_);
   VectorXd all = VectorXd::Zero(n + std::ssize(places));
   for (Index at = 0; at < std::ssize(axes_); ++at) {
-    const Axis& its = axes_[at];
+    const AxisStack& its = axes_[at];
     std::vector<VectorXd> moved;
     for (Index i = 0; i < std::ssize(joint_.plates); ++i) moved.push_back(shortened(its, shapes, at, i));
     // The common face of both sheets is half a thickness away from their middles.
@@ -251,8 +174,8 @@ Eigen::Vector2d Bending::change(const Shapes& before, const Shapes& now) const {
   return largest > 0 ? Eigen::Vector2d(all / largest) : all;
 }
 
-Eigen::Vector2d Bending::solve_back(const JointEquations& equations, const PathStep& step, Heads heads,
-                                    JointState& state, Shapes& shapes) const {
+Eigen::Vector2d Bending::solve_back(const JointEquations& equations, const PathStep& step, const SolvedPoint* point,
+                                    Heads heads, JointState& state, Shapes& shapes) const {
   constexpr int most = 30;
   constexpr double negligible = 0.1;  // of the mismatch allowed
   const Index n = joint_.n_planes() * joint_.n_directions();
@@ -271,11 +194,14 @@ Eigen::Vector2d Bending::solve_back(const JointEquations& equations, const PathS
     const VectorXd by_bending = now.rigid_forces(step.load_factor) - in_plane;
     if (i == 0 && by_bending.lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * state.largest_force)
       return Eigen::Vector2d::Zero();
+    if (const VectorXd change = i == 0 && point != nullptr ? point->slopes(-by_bending).c : VectorXd();
+        change.size() > 0 && change.allFinite())
+      c += change;
     Walk walk(now, options);
     if (!walk.jump({step.load_factor, c})) return Eigen::Vector2d::Constant(infinite);
-    const PathStep reached = walk.step();
+    const PathStep reached = walk.unchecked_step();
     c = reached.c;
-    state = joint_state(joint_, now, reached);
+    state = joint_state(joint_, now, reached, false);
     Shapes next = bent(loads(state), heads);
     mismatch = change(shapes, next);
     shapes = std::move(next);
@@ -285,90 +211,105 @@ Eigen::Vector2d Bending::solve_back(const JointEquations& equations, const PathS
   return mismatch;
 }
 
-void Bending::set(const std::vector<StackLoads>& loads, const Shapes& shapes, const JointState& bent, Heads heads,
-                  JointState& state) const {
-  for (Index at = 0; at < std::ssize(joint_.plates); ++at) {
-    const formats::PlateStresses& a = joint_.plates[at].stresses;
-    const PlateState& its = bent.plates[at];
-    PlateBending& bending = state.plates[at].bending;
-    bending.De.col(heads) += its.De, bending.Pe.col(heads) = its.Pe;
-    for (Index k = 0; k < std::ssize(axes_) && scene_.bending.way_back; ++k)
-      for (Index i = 0; i < its.De.size(); ++i)
-        if (joint_.plates[at].external_axis[i] == axes_[k].axis)
-          bending.De(i, heads) += shortened(axes_[k], shapes, k, at)[nearest(axes_[k], at, i)];
-    // Stress on the lower face along x and y, before and behind its row, of each hole.
-    std::vector<std::array<std::array<double, 2>, 2>> lower(bending.stress.rows());
-    for (std::size_t k = 0; k < axes_.size(); ++k) {
-      const Axis& axis = axes_[k];
-      const StackSheet& sheet = axis.stack.sheets[at];
-      for (Index row = 0; row < std::ssize(sheet.rows); ++row) {
-        const Index of_all = axis.first_row[at] + row, node = sheet.rows[row];
-        double gross = 0;  // of the more loaded side
-        Eigen::Vector2d stress = Eigen::Vector2d::Zero();
-        for (const int side : {0, 1}) {
-          const double M = bending.moment(of_all, 2 * side + heads) = shapes[k].moment[at](row, side);
-          const Index segment = sheet.beside(row, side);
-          if (segment < 0) continue;
-          const double t = sheet.thickness[segment], area = sheet.width[segment] * t;
-          stress[side] = 6 * M / (area * t);
-          const double N = loads[k].N[at][segment] / area;
-          if (std::abs(N) > std::abs(gross) * (1 + 1e-9)) {
-            gross = N;
-            bending.k_b(of_all, heads) = std::abs(stress[side] / N);
-          }
-        }
-        if (gross == 0) bending.k_b(of_all, heads) = 0;
-        bending.deflection(of_all, heads) = shapes[k].w[at][node];
-        for (Index i = 0; i < std::ssize(lower); ++i) {
-          if (std::abs(a.rim_center(i, axis.axis) - sheet.at[node]) > row_tolerance(joint_.plates[at], axis.axis))
-            continue;
-          // The strip of a hole may carry more than the mean of the sheet.
-          const double strip = its.rims[i].gross_stress[axis.axis];
-          const double share = std::isfinite(strip) && gross != 0 ? std::abs(strip / gross) : 1;
-          for (const int side : {0, 1}) lower[i][axis.axis][side] = share * stress[side];
-        }
-      }
-      for (Index j = 0; heads == free_heads && j < std::ssize(shapes[k].pressed); ++j) {
-        const StackLink& link = axis.stack.links[j];
-        for (const auto& [plate, row] : {std::pair(link.lower, link.lower_row), std::pair(link.upper, link.upper_row)})
-          if (plate == at && shapes[k].pressed[j]) bending.pressed[axis.first_row[at] + row] = 1;
-      }
-    }
-    for (Index i = 0; i < std::ssize(lower); ++i) {
-      auto upper = lower[i];
-      for (auto& along : upper)
-        for (double& each : along) each = -each;
-      const auto on_lower = peak_with_bending(its.rims[i].hoop, lower[i], K_[at][i]),
-                 on_upper = peak_with_bending(its.rims[i].hoop, upper, K_[at][i]);
-      bending.lower(i, heads) = on_lower.value, bending.lower_angle(i, heads) = on_lower.angle;
-      bending.upper(i, heads) = on_upper.value, bending.upper_angle(i, heads) = on_upper.angle;
-      const auto& face = on_upper.value > on_lower.value ? upper : lower[i];
-      double& largest = bending.stress(i, heads) = 0;
-      for (const auto& along : face)
-        for (const double each : along) largest = std::max(largest, each);
-    }
+void Bending::set_rows(Index k, Index at, const StackLoads& loads, const StackShape& shape, Heads heads,
+                       PlateBending& bending) const {
+  const StackSheet& sheet = axes_[k].stack.sheets[at];
+  for (Index row = 0; row < std::ssize(sheet.rows); ++row) {
+    const Index of_all = axes_[k].first_row[at] + row;
+    const int loaded = more_loaded_side(sheet, loads.N[at], row);
+    for (const int side : {0, 1}) bending.moment(of_all, 2 * side + heads) = shape.moment[at](row, side);
+    const double gross = gross_stress(sheet, loads.N[at], row, loaded);
+    const double bent = bending_stress(sheet, row, loaded, shape.moment[at](row, loaded));
+    bending.k_b(of_all, heads) = gross == 0 ? 0 : std::abs(bent / gross);
+    bending.deflection(of_all, heads) = shape.w[at][sheet.rows[row]];
+  }
+  for (Index j = 0; heads == free_heads && j < std::ssize(shape.pressed); ++j) {
+    const StackLink& link = axes_[k].stack.links[j];
+    for (const auto& [plate, row] : {std::pair(link.lower, link.lower_row), std::pair(link.upper, link.upper_row)})
+      if (plate == at && shape.pressed[j]) bending.pressed[axes_[k].first_row[at] + row] = 1;
+  }
+  // Loads along the axis open cracks that grow across it.
+  for (Index t = 0; t < bending.at_tip.rows() && !sheet.rows.empty(); ++t) {
+    const pfem::CrackTip& tip = joint_.plates[at].cracks.tips[t];
+    if ((std::abs(std::sin(tip.angle)) > std::abs(std::cos(tip.angle))) != (axes_[k].axis == 0)) continue;
+    Index row = 0;
+    (sheet.at(sheet.rows).array() - tip.at[axes_[k].axis]).abs().minCoeff(&row);
+    bending.at_tip(t, heads) = bending.k_b(axes_[k].first_row[at] + row, heads);
   }
 }
 
-void Bending::add(const JointEquations& equations, const PathStep& step, JointState& state) const {
+void Bending::set_hole(Index at, Index hole, const std::vector<StackLoads>& in_plane, const HoleState& state,
+                       Heads heads, PlateBending& bending) const {
+  const PlateModel& plate = joint_.plates[at];
+  std::array<std::array<double, 2>, 2> lower{}, upper{};  // along x and y, before and behind the row
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const StackSheet& sheet = axes_[k].stack.sheets[at];
+    const int axis = axes_[k].axis;
+    for (Index row = 0; row < std::ssize(sheet.rows); ++row) {
+      const double place = plate.stresses.rim_center(hole, axis);
+      if (std::abs(place - sheet.at[sheet.rows[row]]) > row_tolerance(plate, axis)) continue;
+      // The strip of a hole may carry more than the mean of the sheet.
+      const VectorXd& N = in_plane[k].N[at];
+      const double strip = state.gross_stress[axis],
+                   gross = gross_stress(sheet, N, row, more_loaded_side(sheet, N, row));
+      const double share = std::isfinite(strip) && gross != 0 ? std::abs(strip / gross) : 1;
+      for (const int side : {0, 1}) {
+        const double M = bending.moment(axes_[k].first_row[at] + row, 2 * side + heads);
+        lower[axis][side] = share * bending_stress(sheet, row, side, M);
+        upper[axis][side] = -lower[axis][side];
+      }
+    }
+  }
+  const auto on_lower = peak_with_bending(state.hoop, lower, K_[at][hole]),
+             on_upper = peak_with_bending(state.hoop, upper, K_[at][hole]);
+  bending.lower(hole, heads) = on_lower.value, bending.lower_angle(hole, heads) = on_lower.angle;
+  bending.upper(hole, heads) = on_upper.value, bending.upper_angle(hole, heads) = on_upper.angle;
+  double& largest = bending.stress(hole, heads) = 0;
+  for (const auto& along : on_upper.value > on_lower.value ? upper : lower)
+    for (const double each : along) largest = std::isnan(each) ? each : std::max(largest, each);
+}
+
+void Bending::set(const std::vector<StackLoads>& in_plane, const Shapes& shapes, const JointState& bent, Heads heads,
+                  JointState& state) const {
+  const auto bent_loads = loads(bent);
+  for (Index at = 0; at < std::ssize(joint_.plates); ++at) {
+    const PlateState& its = bent.plates[at];
+    PlateBending& bending = state.plates[at].bending;
+    bending.De.col(heads) += its.De, bending.Pe.col(heads) = its.Pe;
+    for (Index k = 0; k < std::ssize(axes_); ++k) {
+      for (Index i = 0; i < its.De.size() && scene_.bending.way_back; ++i)
+        if (joint_.plates[at].external_axis[i] == axes_[k].axis)
+          bending.De(i, heads) += shortened(axes_[k], shapes, k, at)[nearest(axes_[k], at, i)];
+      set_rows(k, at, bent_loads[k], shapes[k], heads, bending);
+    }
+    for (Index hole = 0; hole < bending.stress.rows(); ++hole)
+      set_hole(at, hole, in_plane, state.plates[at].rims[hole], heads, bending);
+  }
+  state.bent_transferred.col(heads) = bent.transferred_first;
+}
+
+void Bending::add(const JointEquations& equations, const PathStep& step, const SolvedPoint* point,
+                  JointState& state) const {
   if (axes_.empty()) return;
   state.bending_mismatch.setConstant(2, 2, std::nan(""));
   for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
     const PlateModel& plate = joint_.plates[i];
     PlateBending& its = state.plates[i].bending;
-    its = {std::ssize(disc_rows(plate)), std::ssize(state.plates[i].rims), plate.n_externals()};
+    its = {std::ssize(disc_rows(plate)), std::ssize(state.plates[i].rims), plate.n_externals(),
+           std::ssize(plate.cracks.tips)};
     for (const Heads heads : scene_.bending.heads) its.De.col(heads) = equations.parameters.free[i].De;
   }
   state.bent_transferred.setConstant(joint_.n_planes(), 2, std::nan(""));
   for (const Heads heads : scene_.bending.heads) {
     JointState now = state;
-    Shapes shapes = bent(loads(now), heads);
+    const auto in_plane = loads(state);
+    Shapes shapes = bent(in_plane, heads);
     if (scene_.bending.way_back) {
       auto mismatch = state.bending_mismatch.col(heads);
-      const Eigen::Vector2d found = solve_back(equations, step, heads, now, shapes);
-      for (const Axis& its : axes_) mismatch[its.axis] = found[its.axis];
+      const Eigen::Vector2d found = solve_back(equations, step, point, heads, now, shapes);
+      for (const AxisStack& its : axes_) mismatch[its.axis] = found[its.axis];
     }
-    set(loads(now), shapes, now, heads, state);
+    set(in_plane, shapes, now, heads, state);
     if (state.bending_mismatch.col(heads).array().isInf().any())
       state.no_bending = "the joint was not solved with the sheets displaced by it, so that it acts one way alone";
     for (const auto& shape : shapes)
@@ -376,7 +317,6 @@ void Bending::add(const JointEquations& equations, const PathStep& step, JointSt
         state.no_bending = "compression makes the sheets buckle between rows";
       else if (!shape.is_known)
         state.no_bending = "forces act along a sheet on an edge beside its rows, so that its tension is not known";
-    state.bent_transferred.col(heads) = now.transferred_first;
   }
 }
 

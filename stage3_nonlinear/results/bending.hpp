@@ -6,7 +6,7 @@
 
 #include "stage3_nonlinear/model/disc_rows.hpp"
 #include "stage3_nonlinear/results/at_increment.hpp"
-#include "stage3_nonlinear/strength/sheet_stack.hpp"
+#include "stage3_nonlinear/strength/axis_stack.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -21,42 +21,40 @@ class Bending {
   /// Sets the bending of an increment that was solved: JointState::bending and that of its plates. The slopes and the
   /// shortening of the sheets act back on the forces in the plane: the joint is solved again with the sheets displaced
   /// by them, until the moments change by no more than BendingScene::mismatch.
-  /// @param equations With the history at the start of the increment.
-  void add(const JointEquations& equations, const PathStep& step, JointState& state) const;
+  /// @param equations With the history at the start of the increment. @param point The solution with its tangent, by
+  /// which these solutions start nearer; may be null.
+  void add(const JointEquations& equations, const PathStep& step, const SolvedPoint* point, JointState& state) const;
 
  private:
-  /// The sheets along one axis, in the order of the plates.
-  struct Axis {
-    Index direction;                   ///< of the joint
-    int axis;                          ///< 0 x, 1 y
-    std::vector<Index> first_row;      ///< of each plate, among all its rows
-    std::vector<Index> link_of_plane;  ///< (n) -1 where the discs do not move along the axis
-    SheetStack stack;
-  };
   using Shapes = std::vector<StackShape>;  ///< of each axis
 
-  void add_axis(Index direction);
-  [[nodiscard]] StackSheet sheet(const PlateModel& plate, int axis, Index& first_row) const;
-  void check_order() const;
   [[nodiscard]] std::vector<StackLoads> loads(const JointState& state) const;
   [[nodiscard]] Shapes bent(const std::vector<StackLoads>& loads, Heads heads) const;
   /// Displacements of the free sheets by their slopes and shortening: (n a) offsets of the planes, then of each load.
   [[nodiscard]] VectorXd displaced(const Shapes& shapes, const JointEquations& equations) const;
   /// Displacement of a sheet by its shortening at each node of its beam, length.
-  [[nodiscard]] VectorXd shortened(const Axis& its, const Shapes& shapes, Index at, Index plate) const;
+  [[nodiscard]] VectorXd shortened(const AxisStack& its, const Shapes& shapes, Index at, Index plate) const;
   /// Node at a rigid external.
-  [[nodiscard]] Index nearest(const Axis& its, Index plate, Index external) const;
+  [[nodiscard]] Index nearest(const AxisStack& its, Index plate, Index external) const;
   /// Largest change of the moments along each axis, relative to the largest of all.
   [[nodiscard]] Eigen::Vector2d change(const Shapes& before, const Shapes& now) const;
   /// Bends with the way back. @param state That in the plane, replaced by the last. @return mismatch by axis.
-  Eigen::Vector2d solve_back(const JointEquations& equations, const PathStep& step, Heads heads, JointState& state,
-                             Shapes& shapes) const;
-  void set(const std::vector<StackLoads>& loads, const Shapes& shapes, const JointState& bent, Heads heads,
+  Eigen::Vector2d solve_back(const JointEquations& equations, const PathStep& step, const SolvedPoint* point,
+                             Heads heads, JointState& state, Shapes& shapes) const;
+  /// Sets what follows from the shapes. @param in_plane Loads of the solution in the plane. @param bent The joint with
+  /// bending. @param state The solution in the plane.
+  void set(const std::vector<StackLoads>& in_plane, const Shapes& shapes, const JointState& bent, Heads heads,
            JointState& state) const;
+  /// Sets the rows of a plate along the axis k.
+  void set_rows(Index k, Index at, const StackLoads& loads, const StackShape& shape, Heads heads,
+                PlateBending& bending) const;
+  /// Sets a hole of a plate from its rows.
+  void set_hole(Index at, Index hole, const std::vector<StackLoads>& in_plane, const HoleState& state, Heads heads,
+                PlateBending& bending) const;
 
   const JointModel& joint_;
   const JointScene& scene_;
-  std::vector<Axis> axes_;
+  std::vector<AxisStack> axes_;
   std::vector<Eigen::VectorXd> K_;  ///< of each plate, bending_concentration at its holes; NaN if not known
 };
 

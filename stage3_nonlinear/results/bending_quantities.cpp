@@ -9,7 +9,8 @@ namespace fastjoint::stage3 {
 std::vector<PlateGroup> bending_quantities(const PlateModel& plate) {
   using namespace columns;
   if (!plate.bends) return {};
-  const Index rows = std::ssize(disc_rows(plate)), r = plate.stress_level ? std::ssize(plate.stresses.rim_hole) : 0;
+  const Index rows = std::ssize(disc_rows(plate)), r = plate.stress_level ? std::ssize(plate.stresses.rim_hole) : 0,
+              t = std::ssize(plate.cracks.tips);
   const std::vector<std::string> heads{"free", "clamped"};
   const auto values = [](Index n, auto get) {
     return [n, get](const PlateAt& at) -> MatrixXd {
@@ -49,6 +50,11 @@ std::vector<PlateGroup> bending_quantities(const PlateModel& plate) {
               [](const PlateBending& its) {
                 return std::vector{its.De, its.Pe};
               }),
+       heads},
+      {Of::tip,
+       t,
+       {{"crack/bending", ratio, "bending stress over the mean stress at the row next to each tip", "", h5::nan_too}},
+       values(2 * t, [](const PlateBending& its) { return std::vector{its.at_tip}; }),
        heads},
       {Of::hole,
        r,

@@ -86,7 +86,7 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 /// @param is_held   (e) externals that are displaced or tied, whose forces are reactions.
 /// @param worst_row Maximum of its value and the largest imbalance of a row of the plate, force.
 void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, const VectorXd& rim_F,
-                   const VectorXd& on_discs, double scale, PlateState& state, double& worst_row) {
+                   const VectorXd& on_discs, double scale, bool with_stresses, PlateState& state, double& worst_row) {
   const Index m = plate.n_disc_unknowns(), k = rim_F.size();
   VectorXd u(plate.n_unknowns());
   u << state.D, state.De, state.moments;
@@ -99,10 +99,10 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, co
   state.bearing = on_discs;
   state.friction = VectorXd::Zero(m);
   set_friction(plate, state);
-  if (plate.stress_level)
+  if (plate.stress_level && with_stresses)
     state.rims = hole_states(plate.stresses, plate.border, *plate.stress_level, unit_case_coefficients(plate, state),
                              loaded_discs(plate, state), scale, state.loaded);
-  state.cracks = crack_state(plate, unit_case_coefficients(plate, state));
+  if (with_stresses) state.cracks = crack_state(plate, unit_case_coefficients(plate, state));
   worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
                         (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
@@ -164,7 +164,7 @@ MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, c
 
 std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
                                     const std::vector<ContactLoad>& contacts, const VectorXd& D, const VectorXd& load,
-                                    const VectorXd& Lambda) {
+                                    const VectorXd& Lambda, bool with_stresses) {
   std::vector<PlateState> plates(joint.plates.size());
   for (Index i = 0; i < std::ssize(plates); ++i) {
     const PlateModel& plate = joint.plates[i];
@@ -187,13 +187,14 @@ std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSyst
   Index first_rim = 0;
   for (Index i = 0; i < std::ssize(plates); ++i) {
     const Index n = std::ssize(joint.plates[i].contact);
-    load_rims(joint.plates[i], {contacts.begin() + first_rim, contacts.begin() + first_rim + n}, plates[i]);
+    load_rims(joint.plates[i], {contacts.begin() + first_rim, contacts.begin() + first_rim + n}, plates[i],
+              with_stresses);
     first_rim += n;
   }
   return plates;
 }
 
-void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state) {
+void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state, bool with_stresses) {
   std::vector<double> waves, w, added;
   const auto append = [](const VectorXd& part, std::vector<double>& all) {
     all.insert(all.end(), part.begin(), part.end());
@@ -213,14 +214,16 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
   state.waves = vector(waves);
   state.w = vector(w);
   state.added = vector(added);
-  if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_coefficients(plate, state), contacts);
+  if (plate.stress_level && with_stresses)
+    state.loaded = loaded_rims(plate, unit_case_coefficients(plate, state), contacts);
 }
 
 VectorXd traction_displacements(const PlateModel& plate, const VectorXd& u, const VectorXd& f) {
   return plate.C * f - plate.T.transpose() * u;
 }
 
-JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
+JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step,
+                       bool with_stresses) {
   const CondensedSystem& system = *equations.system;
   const VectorXd load = equations.load_at(step.load_factor);
   const VectorXd D = displacements(joint, system, load, equations.deforming(step.all_delta()), step.Lambda);
@@ -230,9 +233,10 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   for (const PlateModel& plate : joint.plates)
     for (Index k = 0; k < std::ssize(plate.contact); ++k) {
       const Index i = std::ssize(contacts);
-      contacts.push_back(contact_load(*equations.rims[i], equations.of_rim(step.c, i), plate.stress_level.has_value()));
+      contacts.push_back(
+          contact_load(*equations.rims[i], equations.of_rim(step.c, i), plate.stress_level && with_stresses));
     }
-  state.plates = plate_loads(joint, system, contacts, D, load, step.Lambda);
+  state.plates = plate_loads(joint, system, contacts, D, load, step.Lambda, with_stresses);
   state.transferred_first = transferred(equations, step.F, 0);
   state.transferred_second = transferred(equations, step.F, 1);
   state.largest_force = std::max(step.F.lpNorm<Eigen::Infinity>(), step.scale);
@@ -244,7 +248,8 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
     PlateState& its = state.plates[i];
     const Index k = its.moments.size();
     balance_plate(plate, is_held[i], step.rim_F.segment(first_moment, k),
-                  on_discs.segment(joint.offset(i), plate.n_disc_unknowns()), step.scale, its, state.out_of_balance);
+                  on_discs.segment(joint.offset(i), plate.n_disc_unknowns()), step.scale, with_stresses, its,
+                  state.out_of_balance);
     first_moment += k;
     // The matrices alone do not show the axes: a sheet with statically determinate supports has no stiffness either.
     for (const int axis : plate.unsupported_axes)

@@ -58,7 +58,8 @@ struct JointState {
 /// Sets the state of the rims of a plate, `w`, `waves`, `added` and `loaded`, from its displacements, Lambda and
 /// tractions.
 /// @param contacts One for each rim of contact.
-void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state);
+void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state,
+               bool with_stresses = true);
 
 /// Displacements of all unknowns, (N, columns), length, from the loads of the load columns, (l, columns), relative
 /// displacements of planes and moments, (r, columns), and amplitudes of friction, (t, columns).
@@ -70,13 +71,16 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
 /// @param contacts One for each rim of contact of all plates. @param D (N).
 [[nodiscard]] std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
                                                   const std::vector<ContactLoad>& contacts, const VectorXd& D,
-                                                  const VectorXd& load, const VectorXd& Lambda);
+                                                  const VectorXd& load, const VectorXd& Lambda,
+                                                  bool with_stresses = true);
 
 /// Mean displacements of the traction boundaries of a plate, (q), length, under the displacements u of its unknowns and
 /// the forces f of its tractions, without what friction cases add.
 [[nodiscard]] VectorXd traction_displacements(const PlateModel& plate, const VectorXd& u, const VectorXd& f);
 
-[[nodiscard]] JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step);
+/// @param with_stresses Else without stresses at holes and cracks, only forces and displacements.
+[[nodiscard]] JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step,
+                                     bool with_stresses = true);
 
 /// Share of each plane in per cent of the sum over all planes between the same two plates, or a plate and the ground,
 /// in either order, shape (n); NaN if the sum is only rounding.

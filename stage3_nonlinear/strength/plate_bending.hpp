@@ -17,8 +17,10 @@ struct PlateBending {
   Eigen::MatrixXd upper, upper_angle;  ///< (r, 2) on the upper face
   Eigen::MatrixXd De, Pe;              ///< (e, 2) of rigid externals, length, force
 
+  Eigen::MatrixXd at_tip;  ///< (t, 2) k_b of the row next to each tip of a crack
+
   PlateBending() = default;
-  PlateBending(Eigen::Index rows, Eigen::Index holes, Eigen::Index externals)
+  PlateBending(Eigen::Index rows, Eigen::Index holes, Eigen::Index externals, Eigen::Index tips)
       : moment(none(rows, 4)),
         k_b(none(rows, 2)),
         deflection(none(rows, 2)),
@@ -29,7 +31,8 @@ struct PlateBending {
         upper(none(holes, 2)),
         upper_angle(none(holes, 2)),
         De(none(externals, 2)),
-        Pe(none(externals, 2)) {}
+        Pe(none(externals, 2)),
+        at_tip(none(tips, 2)) {}
 
  private:
   static Eigen::MatrixXd none(Eigen::Index rows, Eigen::Index columns) {

@@ -18,6 +18,9 @@ sys.dont_write_bytecode = True
 import beam_stack  # noqa: E402
 from scripts import run_script  # noqa: E402
 
+sys.path.insert(0, str(ROOT / "scripts/python"))
+from bent_shape import deflection  # noqa: E402
+
 PROGRAMS = Path(sys.argv[1]).resolve()
 E, WIDTH = 72000, 20
 FREE, CLAMPED = 0, 1
@@ -155,11 +158,14 @@ def stacks():
             if heads == FREE and pressed:
                 continue
             exact = beam_stack.solve(sheets, rows, heads == CLAMPED)
-            largest = max(np.abs(M).max() for M, _ in exact)
-            for name, (M, w) in zip(names, exact):
+            largest = max(np.abs(M).max() for M, _, _ in exact)
+            for name, (M, w, (x, fine)) in zip(names, exact):
                 found = f[f"plates/{name}/row/moment"][-1, :, :, heads]
                 assert np.allclose(found, M, atol=1e-4 * largest), (trial, name, heads, found, M)
                 assert np.allclose(f[f"plates/{name}/row/deflection"][-1, :, heads], w, atol=1e-4 * np.abs(w).max() + 1e-9)
+                # The picture: the exact shape between the rows.
+                drawn = deflection(f[f"plates/{name}"], "x", 0, heads)
+                assert np.allclose(np.interp(x, *drawn), fine, atol=2e-3 * np.abs(fine).max()), (trial, name, heads)
 
 
 def double_shear():
@@ -229,6 +235,18 @@ def strips():
     assert (peak[0] > plane[0] + 0.9 * stress[0].max() * 2).all(), (peak, plane, stress)
 
 
+def picture():
+    """draw_bending draws what bends, and says what it does not find."""
+    with lap(3, 100, 40000):
+        pass
+    result = run_script("draw/draw_bending", "result.h5", "-o", "bent.png")
+    assert result.returncode == 0 and Path("bent.png").read_bytes().startswith(b"\x89PNG"), result
+    with lap(3, 100, 40000, bending="none"):
+        pass
+    result = run_script("draw/draw_bending", "result.h5", "-o", "flat.png")
+    assert result.returncode == 2 and "no sheets that bend" in result.stderr and not Path("flat.png").exists(), result
+
+
 def left_alone():
     """Bending changes no other result; a contradictory order is refused where it matters; a study's samples are runs."""
     for name in ("lower", "upper"):
@@ -287,6 +305,6 @@ def buckling():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for check in (tables, published, closed_forms, stacks, double_shear, strips, left_alone, buckling):
+    for check in (tables, published, closed_forms, stacks, double_shear, strips, picture, left_alone, buckling):
         check()
     os.chdir(ROOT)

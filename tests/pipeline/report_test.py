@@ -104,7 +104,8 @@ def check_numbers(folder):
         edges = [[f"{plate}:{name}", f"{f[f'plates/{plate}/Pe'][row, i]:.6g}", f"{f[f'plates/{plate}/De'][row, i]:.6g}"]
                  for plate in f["plate/name"].asstr()[:] for i, name in enumerate(f[f"plates/{plate}/external/id"].asstr()[:])]
     assert found["Loaded edges"][1:] == edges and edges, (found["Loaded edges"], edges)
-    assert sum(f"<h2>Sheet {name}</h2>" in text for name in ("top", "left", "right", "bottom")) == 4 and text.count("<svg") == 6
+    assert "<h2>Secondary bending</h2>" in text
+    assert sum(f"<h2>Sheet {name}</h2>" in text for name in ("top", "left", "right", "bottom")) == 4 and text.count("<svg") == 7
     assert "FS = 1, FF = 1.15 in all of these" in text and reason in text
     assert ["right", "7075-T6", "E = 71000, nu = 0.33"] in found["Materials of the sheets"], found["Materials of the sheets"]
     check_collapse(folder)
@@ -180,7 +181,7 @@ def check_without_rims(copy):
         i = list(f["margin/of"].asstr()[:]).index("right:5")
         f["margin/edge_ratio"][i] = 1.25
     text, found = report(copy / "bare.h5", copy / "bare.html")
-    assert "stage3_nonlinear --rim-stresses writes them" in text and text.count("<svg") == 5
+    assert "stage3_nonlinear --rim-stresses writes them" in text and text.count("<svg") == 6
     assert ["right:5", "5", "3", "2.4", "1.25"] == found["Geometry of the fasteners' holes"][1][:5] and text.count(' bad">') == 1
 
 
@@ -205,7 +206,7 @@ def check_browser(folder, page, found):
     (folder / "outside.html").write_text('<img src="http://outside.invalid/x.png">')
     assert browse(folder, folder / "outside.html")[1] == ["http://outside.invalid/x.png"], "requests are seen"
     elements, asked = browse(folder, page)
-    assert asked == [] and Page(elements).sections == found and elements.count("<svg") == 6, asked
+    assert asked == [] and Page(elements).sections == found and elements.count("<svg") == 7, asked
     headings = [re.findall("<h[12]>(.*)</h[12]>", html.unescape(text)) for text in (elements, page.read_text())]
     assert headings[0] == headings[1] and "Stresses around the worst rims" in headings[0], headings
     picture = matplotlib.image.imread(folder / "page.png")[:, :, :3]

@@ -19,6 +19,7 @@ TEMPLATES = {"<d>": lambda file: file["p"][:], "<name>": lambda file: file["plat
              "<quantity>": lambda file: file["envelope/quantity"].asstr()[:],
              "<kind>": lambda file: [name for name, item in file["statistics"].items() if isinstance(item, h5py.Group)]}
 UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/length^2", "of largest_peak": "force/length^2",
+         "of bent_peak": "force/length^2", "of bent_peak_smaller": "force/length^2", "of largest_bent_peak": "force/length^2",
          "of displacement": "length", "of delta": "length", "of external_force": "force", "of transferred_first": "force",
          "of transferred_second": "force", "of F": "force", "of bearing_load": "force", "of bearing_load_y": "force", "of bypass_load": "force",
          "of bypass_error": "force", "of bearing_stress": "force/length^2", "of peak_hoop": "force/length^2", "of peak_error": "force/length^2",
@@ -36,7 +37,7 @@ JOINT = {
     "margins": {"checks": [{"check": "peak", "limit": 1000}]},
 }
 CRACK = {"from": "hole:1", "angle": 90, "length": 0.1}
-STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements", "cracks", "margins"],
+STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "bending", "displacements", "cracks", "margins"],
          "variables": [{"at": "/laws/bolt/A", "distribution": {"type": "uniform", "from": 900, "to": 1100}}]}
 
 

@@ -12,7 +12,7 @@ def elements(EI, N, L):
 
 
 def solve(sheets, rows, clamped, n=24):
-    """Moments (rows, 2) before and behind each row, and deflections, of each sheet.
+    """Moments (rows, 2) before and behind each row, deflections, and coordinates and deflections in between, of each sheet.
 
     sheets: from the lowest, each {"x": [nodes], "EI", "t", "N": [tension of each bay], "held": [end, end]} with ends free, hinged or
     clamped. rows: (lower sheet, upper sheet, x, force of the upper on the lower sheet along x)."""
@@ -68,5 +68,5 @@ def solve(sheets, rows, clamped, n=24):
                     at = first[i] + 2 * e
                     forces = elements(sheet["EI"], sheet["N"][e // n], np.diff(sheet["fine"])[e]) @ u[at:at + 4]
                     M[k, side] = forces[3] if side == 0 else -forces[1]
-        results.append((M, w))
+        results.append((M, w, (sheet["fine"], u[first[i]:first[i] + 2 * len(sheet["fine"]):2])))
     return results
