@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/bending.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +9,7 @@
 
 #include "common/infinite.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
+#include "stage3_nonlinear/results/bending_feedback.hpp"
 #include "stage3_nonlinear/results/row_forces.hpp"
 #include "stage3_nonlinear/strength/hole_bending.hpp"
 
@@ -17,27 +18,6 @@ namespace {
 
 /// Forces of the fasteners on a disc.
 double force_on(const PlateState& plate, Index disc) { return plate.bearing[disc] + plate.friction[disc]; }
-
-/// Fixed point of y = G(y) by Anderson's method: the next y from all before.
-class FixedPoint {
- public:
-  VectorXd next(const VectorXd& y, const VectorXd& G) {
-    const VectorXd r = G - y;
-    VectorXd result = G;
-    if (!r_.empty()) {
-      dr_.conservativeResize(r.size(), dr_.cols() + 1), dG_.conservativeResize(r.size(), dG_.cols() + 1);
-      dr_.rightCols(1) = r - r_.back(), dG_.rightCols(1) = G - G_;
-      result -= dG_ * dr_.completeOrthogonalDecomposition().solve(r);
-    }
-    r_.assign(1, r), G_ = G;
-    return result;
-  }
-
- private:
-  std::vector<VectorXd> r_;  ///< the last
-  VectorXd G_;
-  MatrixXd dr_{0, 0}, dG_{0, 0};
-};
 
 /// Mean stress of a sheet on a side of a row, 0 before it, 1 behind it; 0 beyond its end.
 double gross_stress(const StackSheet& sheet, const VectorXd& N, Index row, int side) {
@@ -92,6 +72,10 @@ std::vector<StackLoads> Bending::loads(const JointState& state) const {
         loads.q[its.link_of_plane[j]] += force_on(state.plates[holes[k].plate], holes[k].disc + its.direction);
     }
   }
+  return all;
+}
+
+Bending::Shapes Bending::bent(std::vector<StackLoads> all, Heads heads) const {
   constexpr double little = 0.01;  // of the forces along the other axis: the joint carries no load along this one
   double largest = 0;
   for (const auto& each : all) largest = std::max(largest, each.q.lpNorm<Eigen::Infinity>());
@@ -100,64 +84,9 @@ std::vector<StackLoads> Bending::loads(const JointState& state) const {
       each.q.setZero();
       for (auto& N : each.N) N.setZero();
     }
-  return all;
-}
-
-Bending::Shapes Bending::bent(const std::vector<StackLoads>& loads, Heads heads) const {
   Shapes shapes;
-  for (std::size_t i = 0; i < axes_.size(); ++i)
-    shapes.push_back(axes_[i].stack.bend(loads[i], heads == clamped_heads));
+  for (std::size_t i = 0; i < axes_.size(); ++i) shapes.push_back(axes_[i].stack.bend(all[i], heads == clamped_heads));
   return shapes;
-}
-
-VectorXd Bending::shortened(const AxisStack& its, const Shapes& shapes, Index at, Index plate) const {
-  const VectorXd& all = shapes[at].shortened[plate];
-  const auto& places = joint_.plates[plate].places;
-  const double from = places.support_middle(its.axis, 0), to = places.support_middle(its.axis, 1);
-  const VectorXd& x = its.stack.sheets[plate].at;
-  if (to - from > row_tolerance(joint_.plates[plate], its.axis))
-    return VectorXd::Zero(all.size());  // supports hold both ends, and its shortening is a strain
-  Index fixed = 0;
-  if (places.support.row(its.axis).squaredNorm() > 0 || from != 0) (x.array() - from).abs().minCoeff(&fixed);
-  return (all[fixed] - all.array()).matrix();
-}
-
-Index Bending::nearest(const AxisStack& its, Index plate, Index external) const {
-  Index node = 0;
-  (its.stack.sheets[plate].at.array() - joint_.plates[plate].places.external.row(external).mean())
-      .abs()
-      .minCoeff(&node);
-  return node;
-}
-
-VectorXd Bending::displaced(const Shapes& shapes, const JointEquations& equations) const {
-  const Index a = joint_.n_directions(), n = joint_.n_planes() * a;
-  const auto places = loads_of(joint_);
-  VectorXd all = VectorXd::Zero(n + std::ssize(places));
-  for (Index at = 0; at < std::ssize(axes_); ++at) {
-    const AxisStack& its = axes_[at];
-    std::vector<VectorXd> moved;
-    for (Index i = 0; i < std::ssize(joint_.plates); ++i) moved.push_back(shortened(its, shapes, at, i));
-    // The common face of both sheets is half a thickness away from their middles.
-    const auto of_row = [&](Index plate, Index row, double sign) {
-      const StackSheet& sheet = its.stack.sheets[plate];
-      const Index node = sheet.rows[row];
-      return sign * moved[plate][node] - sheet.thickness_at(row) / 2 * shapes[at].slope[plate][node];
-    };
-    for (Index j = 0; j < joint_.n_planes(); ++j) {
-      if (its.link_of_plane[j] < 0) continue;
-      const StackLink& link = its.stack.links[its.link_of_plane[j]];
-      double& offset = all[j * a + its.direction];
-      offset = of_row(link.lower, link.lower_row, 1);
-      if (link.upper >= 0) offset += of_row(link.upper, link.upper_row, -1);
-    }
-    for (Index i = 0; i < std::ssize(places); ++i) {
-      const auto& [plate, external, is_traction] = places[i];
-      if (equations.parameters.held.displaced[i] && joint_.plates[plate].external_axis[external] == its.axis)
-        all[n + i] = moved[plate][nearest(its, plate, external)];
-    }
-  }
-  return all;
 }
 
 Eigen::Vector2d Bending::change(const Shapes& before, const Shapes& now) const {
@@ -174,39 +103,76 @@ Eigen::Vector2d Bending::change(const Shapes& before, const Shapes& now) const {
   return largest > 0 ? Eigen::Vector2d(all / largest) : all;
 }
 
-Eigen::Vector2d Bending::solve_back(const JointEquations& equations, const PathStep& step, const SolvedPoint* point,
-                                    Heads heads, JointState& state, Shapes& shapes) const {
-  constexpr int most = 30;
+std::optional<VectorXd> Bending::predicted(const std::vector<StackLoads>& base,
+                                           const std::vector<std::vector<StackLoads>>& slopes, const VectorXd& base_z,
+                                           const BendingFeedback& feedback, Heads heads, Shapes& shapes) const {
+  constexpr int most = 30, most_halvings = 10;
+  constexpr double enough = 1e-2, step = 1e-6;            // of the mismatch allowed; of the amounts, for differences
+  const auto left = [&](const VectorXd& z) -> VectorXd {  // G(z) - z
+    std::vector<StackLoads> loads = base;
+    for (Index k = 0; k < z.size(); ++k)
+      for (std::size_t axis = 0; axis < loads.size(); ++axis) {
+        const StackLoads& by = slopes[k][axis];
+        loads[axis].q += (z[k] - base_z[k]) * by.q;
+        for (std::size_t sheet = 0; sheet < by.N.size(); ++sheet)
+          loads[axis].N[sheet] += (z[k] - base_z[k]) * by.N[sheet];
+      }
+    shapes = bent(std::move(loads), heads);
+    return feedback.amounts(shapes) - z;
+  };
+  VectorXd z = base_z, r = left(z);
+  const double scale = r.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < most; ++i) {
+    if (!r.allFinite()) return std::nullopt;
+    const double size = std::max(z.lpNorm<Eigen::Infinity>(), scale);
+    if (r.lpNorm<Eigen::Infinity>() <= enough * scene_.bending.mismatch * size) return z;
+    MatrixXd J(z.size(), z.size());
+    for (Index k = 0; k < z.size(); ++k)
+      J.col(k) = (left(z + step * size * VectorXd::Unit(z.size(), k)) - r) / (step * size);
+    VectorXd change = -J.partialPivLu().solve(r), next = left(z + change);
+    for (int halvings = 0; !(next.norm() < r.norm()); ++halvings) {
+      if (halvings == most_halvings) return std::nullopt;
+      change /= 2, next = left(z + change);
+    }
+    z += change, r = std::move(next);
+  }
+  return std::nullopt;
+}
+
+Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, Heads heads, std::optional<BentPoint>& near,
+                                    JointState& state, Shapes& shapes) const {
+  constexpr int most = 10;
   constexpr double negligible = 0.1;  // of the mismatch allowed
-  const Index n = joint_.n_planes() * joint_.n_directions();
-  const VectorXd in_plane = equations.rigid_forces(step.load_factor);
+  const double factor = point.load_factor();
+  const BendingFeedback feedback(joint_, axes_, point.equations());
+  const VectorXd z = feedback.amounts(shapes), in_plane = point.equations().rigid_forces(factor);
+  if (!z.allFinite()) return Eigen::Vector2d::Zero();
+  const auto by_bending = [&](const VectorXd& at) -> VectorXd {
+    return feedback.displaced(at).rigid_forces(factor) - in_plane;
+  };
+  if (by_bending(z).lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * state.largest_force)
+    return Eigen::Vector2d::Zero();
   const PathOptions options{scene_.initial, scene_.solver};
   Eigen::Vector2d mismatch = Eigen::Vector2d::Constant(infinite);
-  FixedPoint search;
-  JointEquations now = equations;
-  Parameters& its = now.parameters;
-  const Parameters& given = equations.parameters;
-  VectorXd y = displaced(shapes, equations), c = step.c;
-  for (int i = 0; i < most && y.allFinite(); ++i) {
-    its.offset = given.offset.size() > 0 ? VectorXd(given.offset + y.head(n)) : y.head(n);
-    its.free_given =
-        given.free_given.size() > 0 ? VectorXd(given.free_given + y.tail(y.size() - n)) : y.tail(y.size() - n);
-    const VectorXd by_bending = now.rigid_forces(step.load_factor) - in_plane;
-    if (i == 0 && by_bending.lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * state.largest_force)
-      return Eigen::Vector2d::Zero();
-    if (const VectorXd change = i == 0 && point != nullptr ? point->slopes(-by_bending).c : VectorXd();
-        change.size() > 0 && change.allFinite())
-      c += change;
-    Walk walk(now, options);
-    if (!walk.jump({step.load_factor, c})) return Eigen::Vector2d::Constant(infinite);
-    const PathStep reached = walk.unchecked_step();
-    c = reached.c;
-    state = joint_state(joint_, now, reached, false);
-    Shapes next = bent(loads(state), heads);
-    mismatch = change(shapes, next);
-    shapes = std::move(next);
+  const VectorXd none = VectorXd::Zero(z.size());
+  for (int i = 0; i < most; ++i) {
+    const SolvedPoint& now = near ? near->point : point;
+    const VectorXd& before = near ? near->z : none;
+    std::vector<std::vector<StackLoads>> slopes;
+    for (const JointState& each : feedback.responses(now)) slopes.push_back(loads(each));
+    Shapes expected;
+    const auto next = predicted(near ? near->loads : loads(state), slopes, before, feedback, heads, expected);
+    if (!next) return Eigen::Vector2d::Constant(infinite);
+    const VectorXd change_of_c = now.slopes(-by_bending(*next - before)).c;
+    JointEquations displaced = feedback.displaced(*next);
+    Walk walk(displaced, options);
+    if (!(change_of_c.allFinite() && walk.jump({factor, now.c() + change_of_c})) && !walk.jump({factor, now.c()}))
+      return Eigen::Vector2d::Constant(infinite);
+    state = joint_state(joint_, displaced, walk.unchecked_step(), false);
+    shapes = bent(loads(state), heads);
+    mismatch = change(expected, shapes);
     if (mismatch.maxCoeff() <= scene_.bending.mismatch) return mismatch;
-    y = search.next(y, displaced(shapes, equations));
+    near.emplace(SolvedPoint(std::move(displaced), factor, walk.here().c), *next, loads(state));
   }
   return mismatch;
 }
@@ -278,8 +244,9 @@ void Bending::set(const std::vector<StackLoads>& in_plane, const Shapes& shapes,
     bending.De.col(heads) += its.De, bending.Pe.col(heads) = its.Pe;
     for (Index k = 0; k < std::ssize(axes_); ++k) {
       for (Index i = 0; i < its.De.size() && scene_.bending.way_back; ++i)
-        if (joint_.plates[at].external_axis[i] == axes_[k].axis)
-          bending.De(i, heads) += shortened(axes_[k], shapes, k, at)[nearest(axes_[k], at, i)];
+        if (const StackSheet& sheet = axes_[k].stack.sheets[at]; joint_.plates[at].external_axis[i] == axes_[k].axis)
+          bending.De(i, heads) += shortened(joint_.plates[at], axes_[k].axis, sheet,
+                                            shapes[k].shortened[at])[node_at(joint_.plates[at], i, sheet)];
       set_rows(k, at, bent_loads[k], shapes[k], heads, bending);
     }
     for (Index hole = 0; hole < bending.stress.rows(); ++hole)
@@ -288,8 +255,7 @@ void Bending::set(const std::vector<StackLoads>& in_plane, const Shapes& shapes,
   state.bent_transferred.col(heads) = bent.transferred_first;
 }
 
-void Bending::add(const JointEquations& equations, const PathStep& step, const SolvedPoint* point,
-                  JointState& state) const {
+void Bending::add(const SolvedPoint& point, JointState& state) const {
   if (axes_.empty()) return;
   state.bending_mismatch.setConstant(2, 2, std::nan(""));
   for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
@@ -297,16 +263,17 @@ void Bending::add(const JointEquations& equations, const PathStep& step, const S
     PlateBending& its = state.plates[i].bending;
     its = {std::ssize(disc_rows(plate)), std::ssize(state.plates[i].rims), plate.n_externals(),
            std::ssize(plate.cracks.tips)};
-    for (const Heads heads : scene_.bending.heads) its.De.col(heads) = equations.parameters.free[i].De;
+    for (const Heads heads : scene_.bending.heads) its.De.col(heads) = point.equations().parameters.free[i].De;
   }
   state.bent_transferred.setConstant(joint_.n_planes(), 2, std::nan(""));
+  std::optional<BentPoint> near;
   for (const Heads heads : scene_.bending.heads) {
     JointState now = state;
     const auto in_plane = loads(state);
     Shapes shapes = bent(in_plane, heads);
     if (scene_.bending.way_back) {
       auto mismatch = state.bending_mismatch.col(heads);
-      const Eigen::Vector2d found = solve_back(equations, step, point, heads, now, shapes);
+      const Eigen::Vector2d found = solve_back(point, heads, near, now, shapes);
       for (const AxisStack& its : axes_) mismatch[its.axis] = found[its.axis];
     }
     set(in_plane, shapes, now, heads, state);

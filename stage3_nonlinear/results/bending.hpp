@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "stage3_nonlinear/model/disc_rows.hpp"
 #include "stage3_nonlinear/results/at_increment.hpp"
+#include "stage3_nonlinear/results/bending_feedback.hpp"
 #include "stage3_nonlinear/strength/axis_stack.hpp"
 
 namespace fastjoint::stage3 {
@@ -21,26 +23,37 @@ class Bending {
   /// Sets the bending of an increment that was solved: JointState::bending and that of its plates. The slopes and the
   /// shortening of the sheets act back on the forces in the plane: the joint is solved again with the sheets displaced
   /// by them, until the moments change by no more than BendingScene::mismatch.
-  /// @param equations With the history at the start of the increment. @param point The solution with its tangent, by
-  /// which these solutions start nearer; may be null.
-  void add(const JointEquations& equations, const PathStep& step, const SolvedPoint* point, JointState& state) const;
+  /// @param point The solution with its tangent, by which the way back is predicted.
+  void add(const SolvedPoint& point, JointState& state) const;
 
  private:
-  using Shapes = std::vector<StackShape>;  ///< of each axis
+  using Shapes = StackShapes;
 
+  /// Forces in the plane of each stack, linear in the state.
   [[nodiscard]] std::vector<StackLoads> loads(const JointState& state) const;
-  [[nodiscard]] Shapes bent(const std::vector<StackLoads>& loads, Heads heads) const;
-  /// Displacements of the free sheets by their slopes and shortening: (n a) offsets of the planes, then of each load.
-  [[nodiscard]] VectorXd displaced(const Shapes& shapes, const JointEquations& equations) const;
-  /// Displacement of a sheet by its shortening at each node of its beam, length.
-  [[nodiscard]] VectorXd shortened(const AxisStack& its, const Shapes& shapes, Index at, Index plate) const;
-  /// Node at a rigid external.
-  [[nodiscard]] Index nearest(const AxisStack& its, Index plate, Index external) const;
+  [[nodiscard]] Shapes bent(std::vector<StackLoads> loads, Heads heads) const;
   /// Largest change of the moments along each axis, relative to the largest of all.
   [[nodiscard]] Eigen::Vector2d change(const Shapes& before, const Shapes& now) const;
-  /// Bends with the way back. @param state That in the plane, replaced by the last. @return mismatch by axis.
-  Eigen::Vector2d solve_back(const JointEquations& equations, const PathStep& step, const SolvedPoint* point,
-                             Heads heads, JointState& state, Shapes& shapes) const;
+  /// Amounts of the feedback with which the shapes are those that they lead to, if loads follow by their slopes from
+  /// those at the amounts `base_z`; none if that finds none.
+  [[nodiscard]] std::optional<VectorXd> predicted(const std::vector<StackLoads>& base,
+                                                  const std::vector<std::vector<StackLoads>>& slopes,
+                                                  const VectorXd& base_z, const BendingFeedback& feedback, Heads heads,
+                                                  Shapes& shapes) const;
+  /// A solution with bending from which the next is predicted: amounts of the feedback, and the loads that they lead
+  /// to.
+  struct BentPoint {
+    SolvedPoint point;
+    VectorXd z;
+    std::vector<StackLoads> loads;
+
+    BentPoint(SolvedPoint its_point, VectorXd amounts, std::vector<StackLoads> its_loads)
+        : point(std::move(its_point)), z(std::move(amounts)), loads(std::move(its_loads)) {}
+  };
+  /// Bends with the way back. @param near Starts there; set where one solution from the plane is not enough.
+  /// @param state That in the plane, replaced by that with bending. @return mismatch by axis.
+  Eigen::Vector2d solve_back(const SolvedPoint& point, Heads heads, std::optional<BentPoint>& near, JointState& state,
+                             Shapes& shapes) const;
   /// Sets what follows from the shapes. @param in_plane Loads of the solution in the plane. @param bent The joint with
   /// bending. @param state The solution in the plane.
   void set(const std::vector<StackLoads>& in_plane, const Shapes& shapes, const JointState& bent, Heads heads,

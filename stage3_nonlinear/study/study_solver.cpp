@@ -77,7 +77,7 @@ VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& s
                               const std::string& case_name) const {
   JointState state = joint_state(joint_, equations, step);
   if (imbalance(equations, step, state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
-  if (outputs_.need_bending()) bending_.add(equations, step, nullptr, state);
+  if (outputs_.need_bending()) bending_.add(SolvedPoint(equations, step.load_factor, step.c), state);
   return outputs_.numbers({joint_, equations, step, state, 0}, case_name);
 }
 

@@ -288,7 +288,7 @@ def left_alone():
     run("stage3_nonlinear", "sample.json", "-o", "sample.h5")
     with h5py.File("study.h5") as study, h5py.File("sample.h5") as f:
         peaks = np.r_[tuple(f[f"plates/{name}/bending/peak"][-1] for name in ("lower", "upper"))]
-        assert np.allclose(study["samples/bent_peak"][2], peaks, rtol=1e-9), (study["samples/bent_peak"][2], peaks)
+        assert np.allclose(study["samples/bent_peak"][2], peaks, rtol=1e-6), (study["samples/bent_peak"][2], peaks)
         margin = dict(zip(zip(f["margin/check"].asstr(), f["margin/of"].asstr()), f["margin/margin"]))
         assert abs(margin["bent", "lower:0"] - (500 / f["plates/lower/bending/peak"][-1, 0] - 1)) < 1e-9
         assert margin["bent", "lower:0"] < margin["peak", "lower:0"]
