@@ -18,9 +18,7 @@ namespace {
 using input::Value;
 
 constexpr int max_increments = 100000;
-constexpr int max_iterations = 1000000;
 /// The lower end is set by rounding; above the upper end a joint would not count as solved.
-constexpr input::Range tolerances{.low = 1e-14, .high = 1e-2};
 
 std::string where(const Value& value) { return fmt::format("{}: {}", value.file(), value.pointer()); }
 
@@ -303,25 +301,6 @@ std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
                          cases[*cases[i].after].name),
              "a number of increments, a list of load factors, or laws with \"reversible\": true");
   return cases;
-}
-
-InitialScene read_initial(const Value& value) {
-  if (value.is_object()) {
-    value.only({"linear"});
-    return {Guess::linear, value.at("linear").number(input::positive)};
-  }
-  if (!value.is_string()) value.not_allowed("\"rigid\", \"equal\" or {\"linear\": stiffness}");
-  return {value.choice({"rigid", "equal"}) == "rigid" ? Guess::rigid : Guess::equal, std::nullopt};
-}
-
-SolverScene read_solver(const Value& value) {
-  value.only({"method", "tolerance", "max_iterations"});
-  SolverScene solver;
-  if (const auto method = value.find("method"))
-    solver.method = static_cast<Method>(index_of(method_names, method->choice(method_names)) + 1);
-  if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
-  if (const auto given = value.find("max_iterations")) solver.max_iterations = given->integer(1, max_iterations);
-  return solver;
 }
 
 /// Warns if fasteners without an expansion have a temperature, which then does nothing.
