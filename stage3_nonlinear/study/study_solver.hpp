@@ -10,6 +10,7 @@
 
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/bending.hpp"
 #include "stage3_nonlinear/study/study_outputs.hpp"
 
 namespace fastjoint::stage3 {

@@ -119,6 +119,17 @@ def closed_forms():
     assert abs(k_b / (3 * L1 / (L1 + 20)) - 1) < 2e-2, k_b
 
 
+    for ratio, half, exact in ((.5, 20, .3721), (1, 20, .3936), (1.5, 20, .3326), (.5, 200, .5287), (1, 200, .7835), (1.5, 200, .9065)):
+        n = 33 if half == 20 else 65
+        xs = np.linspace(-half, half, n)
+        chain("skin", xs, (-half - L1, half + L1), ("ground={k}", "external:P={k}"), t)
+        chain("doubler", xs, (-half - 1e-3, half + 1e-3), ("free", "free"), ratio * t)
+        f = solve(("skin", "doubler"), [[f"skin:{i + 1}", f"doubler:{i + 1}"] for i in range(n)], 1e8,
+                  [{"external": "skin:P", "force": stress * WIDTH * t}], {"heads": "clamped", "mismatch": 1e-5})
+        k_b = f["plates/skin/row/k_b"][-1, 0, CLAMPED]
+        assert abs(k_b / exact - 1) < 5e-3, (ratio, half, k_b)
+
+
 def random_stack(rng):
     """Sheets of a random stack, pulled by random forces at free ends, and its fasteners."""
     n, rows = rng.randint(2, 4), rng.randint(2, 5)
@@ -166,6 +177,34 @@ def stacks():
                 # The picture: the exact shape between the rows.
                 drawn = deflection(f[f"plates/{name}"], "x", 0, heads)
                 assert np.allclose(np.interp(x, *drawn), fine, atol=2e-3 * np.abs(fine).max()), (trial, name, heads)
+
+
+def strap():
+    """Two sheets of one level and a strap over both: as the beams of cubic elements, and mirrored through the thickness."""
+    places = {"left": [-30, -10], "right": [12, 30], "strap": [-30, -10, 12, 30]}
+    ends, thick = {"left": (-130, -2), "right": (2, 120), "strap": (-38, 38)}, {"left": 2, "right": 2, "strap": 1.6}
+    held = {"left": ("ground={k}", "free"), "right": ("free", "external:P={k}"), "strap": ("free", "free")}
+    for name in places:
+        chain(name, places[name], ends[name], held[name], thick[name])
+    names = [["left:1", "strap:1"], ["left:2", "strap:2"], ["right:1", "strap:3"], ["right:2", "strap:4"]]
+    results = {}
+    for above in (True, False):
+        with solve(tuple(places), [its if above else its[::-1] for its in names], 40000, [{"external": "right:P", "force": 4000}],
+                   {"way_back": False}) as f:
+            results[above] = {name: (f[f"plates/{name}/row/moment"][-1], f[f"plates/{name}/row/deflection"][-1],
+                                     f[f"plates/{name}/disc/bearing"][-1]) for name in places}
+            assert not any(f[f"plates/{name}/row/pressed"][-1].any() for name in places)
+    sheets = [{"x": np.r_[ends[name][0], places[name], ends[name][1]], "EI": E * WIDTH * thick[name]**3 / 12, "t": thick[name],
+               "N": (4000 if name == "right" else 0) + np.r_[np.cumsum(results[True][name][2][::-1])[::-1], 0],
+               "held": ["free" if how == "free" else "hinged" for how in held[name]]} for name in places]
+    rows = [(0, 2, x, q) for x, q in zip(places["left"], results[True]["left"][2])]
+    rows += [(1, 2, x, q) for x, q in zip(places["right"], results[True]["right"][2])]
+    for heads in (FREE, CLAMPED):
+        for name, (M, w, _) in zip(places, beam_stack.solve(sheets, rows, heads == CLAMPED)):
+            found = results[True][name]
+            assert np.allclose(found[0][:, :, heads], M, atol=1e-4 * np.abs(M).max()), (name, heads, found[0], M)
+            assert np.allclose(found[1][:, heads], w, atol=1e-4 * np.abs(w).max())
+            assert np.allclose(results[False][name][0], -found[0], atol=1e-9 * np.abs(M).max())
 
 
 def double_shear():
@@ -305,6 +344,6 @@ def buckling():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for check in (tables, published, closed_forms, stacks, double_shear, strips, picture, left_alone, buckling):
+    for check in (tables, published, closed_forms, stacks, strap, double_shear, strips, picture, left_alone, buckling):
         check()
     os.chdir(ROOT)
