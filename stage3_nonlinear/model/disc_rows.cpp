@@ -7,9 +7,14 @@
 namespace fastjoint::stage3 {
 
 double row_tolerance(const PlateModel& plate, int axis) {
-  constexpr double relative = 1e-3;
-  const auto centers = plate.places.disc.col(axis);
-  return centers.size() == 0 ? 0 : relative * (centers.maxCoeff() - centers.minCoeff());
+  constexpr double of_extent = 1e-3, of_radius = 0.1, rounding = 1e-9;
+  const auto& centers = plate.places.disc;
+  if (centers.rows() == 0) return 0;
+  const Eigen::RowVector2d extent = centers.colwise().maxCoeff() - centers.colwise().minCoeff();
+  const auto& radii = plate.stresses.rim_radius;
+  return std::max(
+      {of_extent * extent[axis], radii.size() > 0 ? of_radius * radii.minCoeff() : 0,
+       rounding * (extent.maxCoeff() + centers.cwiseAbs().maxCoeff() + plate.places.external.cwiseAbs().sum())});
 }
 
 std::vector<DiscRow> disc_rows(const PlateModel& plate) {

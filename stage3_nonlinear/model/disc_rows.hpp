@@ -15,10 +15,11 @@ struct DiscRow {
 };
 
 /// The rows of a sheet, of each axis of the joint in ascending order; none if its file does not tell the places.
-/// Centres that differ by less than a thousandth of the extent of all are of one row.
+/// Centres that differ by less than row_tolerance are of one row.
 [[nodiscard]] std::vector<DiscRow> disc_rows(const PlateModel& plate);
 
-/// Difference of coordinates along an axis within which two discs are of one row, length.
+/// Difference of coordinates along an axis within which two discs are of one row: a thousandth of the extent of all, or
+/// a tenth of the smallest radius if that is more; length.
 [[nodiscard]] double row_tolerance(const PlateModel& plate, int axis);
 
 }  // namespace fastjoint::stage3

@@ -19,35 +19,36 @@ namespace {
 /// Forces of the fasteners on a disc.
 double force_on(const PlateState& plate, Index disc) { return plate.bearing[disc] + plate.friction[disc]; }
 
-/// Mean stress of a sheet on a side of a row, 0 before it, 1 behind it; 0 beyond its end.
-double gross_stress(const StackSheet& sheet, const VectorXd& N, Index row, int side) {
-  const Index segment = sheet.beside(row, side);
+/// Mean stress of a sheet on a side of a node, 0 before it, 1 behind it; 0 beyond its end.
+double gross_stress(const StackSheet& sheet, const VectorXd& N, Index node, int side) {
+  const Index segment = sheet.beside(node, side);
   return segment < 0 ? 0 : N[segment] / (sheet.width[segment] * sheet.thickness[segment]);
 }
 
-/// The side of a row on which the sheet is more loaded; of equal ones that before it.
-int more_loaded_side(const StackSheet& sheet, const VectorXd& N, Index row) {
+/// The side of a node on which the sheet is more loaded; of equal ones that before it.
+int more_loaded_side(const StackSheet& sheet, const VectorXd& N, Index node) {
   constexpr double equal = 1 + 1e-9;
-  const double before = std::abs(gross_stress(sheet, N, row, 0)), behind = std::abs(gross_stress(sheet, N, row, 1));
+  const double before = std::abs(gross_stress(sheet, N, node, 0)), behind = std::abs(gross_stress(sheet, N, node, 1));
   return behind > equal * before ? 1 : 0;
 }
 
-/// Stress on the lower face of a sheet under a moment on a side of a row; 0 beyond its end.
-double bending_stress(const StackSheet& sheet, Index row, int side, double moment) {
-  const Index segment = sheet.beside(row, side);
+/// Stress on the lower face of a sheet under a moment on a side of a node; 0 beyond its end.
+double bending_stress(const StackSheet& sheet, Index node, int side, double moment) {
+  const Index segment = sheet.beside(node, side);
   return segment < 0 ? 0 : 6 * moment / (sheet.width[segment] * sheet.thickness[segment] * sheet.thickness[segment]);
 }
 
-/// Concentration of bending at each hole of a plate; NaN where thickness or Poisson's ratio are not known.
-VectorXd concentrations(const PlateModel& plate) {
+/// Concentration of bending and Poisson's ratio at each hole of a plate, (r, 2); NaN where they are not known.
+MatrixXd concentrations(const PlateModel& plate) {
   const formats::PlateStresses& a = plate.stresses;
-  VectorXd K = VectorXd::Constant(plate.stress_level ? std::ssize(a.rim_hole) : 0, std::nan(""));
-  for (Index i = 0; i < K.size(); ++i)
+  MatrixXd all = MatrixXd::Constant(plate.stress_level ? std::ssize(a.rim_hole) : 0, 2, std::nan(""));
+  for (Index i = 0; i < all.rows(); ++i)
     for (const auto& rim : plate.waves)
-      if (rim.hole == a.rim_hole[i] && rim.has_closed_form() && a.rim_thickness[i] > 0)
-        K[i] =
-            bending_concentration(a.rim_radius[i] / a.rim_thickness[i], -rim.compliance(0, 1) / rim.compliance(0, 0));
-  return K;
+      if (rim.hole == a.rim_hole[i] && rim.has_closed_form() && a.rim_thickness[i] > 0) {
+        const double nu = -rim.compliance(0, 1) / rim.compliance(0, 0);
+        all.row(i) << bending_concentration(a.rim_radius[i] / a.rim_thickness[i], nu), nu;
+      }
+  return all;
 }
 
 }  // namespace
@@ -75,14 +76,20 @@ std::vector<StackLoads> Bending::loads(const JointState& state) const {
   return all;
 }
 
-Bending::Shapes Bending::bent(std::vector<StackLoads> all, Heads heads) const {
-  constexpr double little = 0.01;  // of the forces along the other axis: the joint carries no load along this one
+std::vector<bool> Bending::carrying(const std::vector<StackLoads>& all) const {
+  constexpr double little = 0.05;  // of the forces along the other axis: contraction makes them, no load
   double largest = 0;
   for (const auto& each : all) largest = std::max(largest, each.q.lpNorm<Eigen::Infinity>());
-  for (auto& each : all)
-    if (each.q.lpNorm<Eigen::Infinity>() <= little * largest) {
-      each.q.setZero();
-      for (auto& N : each.N) N.setZero();
+  std::vector<bool> result;
+  for (const auto& each : all) result.push_back(each.q.lpNorm<Eigen::Infinity>() > little * largest);
+  return result;
+}
+
+Bending::Shapes Bending::bent(std::vector<StackLoads> all, const std::vector<bool>& carries, Heads heads) const {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!carries[i]) {
+      all[i].q.setZero();
+      for (auto& N : all[i].N) N.setZero();
     }
   Shapes shapes;
   for (std::size_t i = 0; i < axes_.size(); ++i) shapes.push_back(axes_[i].stack.bend(all[i], heads == clamped_heads));
@@ -105,7 +112,8 @@ Eigen::Vector2d Bending::change(const Shapes& before, const Shapes& now) const {
 
 std::optional<VectorXd> Bending::predicted(const std::vector<StackLoads>& base,
                                            const std::vector<std::vector<StackLoads>>& slopes, const VectorXd& base_z,
-                                           const BendingFeedback& feedback, Heads heads, Shapes& shapes) const {
+                                           const BendingFeedback& feedback, const std::vector<bool>& carries,
+                                           Heads heads, Shapes& shapes) const {
   constexpr int most = 30, most_halvings = 10;
   constexpr double enough = 1e-2, step = 1e-6;            // of the mismatch allowed; of the amounts, for differences
   const auto left = [&](const VectorXd& z) -> VectorXd {  // G(z) - z
@@ -117,7 +125,7 @@ std::optional<VectorXd> Bending::predicted(const std::vector<StackLoads>& base,
         for (std::size_t sheet = 0; sheet < by.N.size(); ++sheet)
           loads[axis].N[sheet] += (z[k] - base_z[k]) * by.N[sheet];
       }
-    shapes = bent(std::move(loads), heads);
+    shapes = bent(std::move(loads), carries, heads);
     return feedback.amounts(shapes) - z;
   };
   VectorXd z = base_z, r = left(z);
@@ -139,19 +147,22 @@ std::optional<VectorXd> Bending::predicted(const std::vector<StackLoads>& base,
   return std::nullopt;
 }
 
-Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, Heads heads, std::optional<BentPoint>& near,
-                                    JointState& state, Shapes& shapes) const {
+Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, const PathStep& step, const std::vector<bool>& carries,
+                                    Heads heads, std::optional<BentPoint>& near, JointState& state,
+                                    Shapes& shapes) const {
   constexpr int most = 10;
   constexpr double negligible = 0.1;  // of the mismatch allowed
   const double factor = point.load_factor();
   const BendingFeedback feedback(joint_, axes_, point.equations());
   const VectorXd z = feedback.amounts(shapes), in_plane = point.equations().rigid_forces(factor);
-  if (!z.allFinite()) return Eigen::Vector2d::Zero();
+  if (!z.allFinite()) return Eigen::Vector2d::Constant(infinite);
   const auto by_bending = [&](const VectorXd& at) -> VectorXd {
     return feedback.displaced(at).rigid_forces(factor) - in_plane;
   };
-  if (by_bending(z).lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * state.largest_force)
+  if (by_bending(z).lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * state.largest_force) {
+    state = joint_state(joint_, feedback.displaced(z), step, false);  // moved, under the same forces
     return Eigen::Vector2d::Zero();
+  }
   const PathOptions options{scene_.initial, scene_.solver};
   Eigen::Vector2d mismatch = Eigen::Vector2d::Constant(infinite);
   const VectorXd none = VectorXd::Zero(z.size());
@@ -161,7 +172,7 @@ Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, Heads heads, std::
     std::vector<std::vector<StackLoads>> slopes;
     for (const JointState& each : feedback.responses(now)) slopes.push_back(loads(each));
     Shapes expected;
-    const auto next = predicted(near ? near->loads : loads(state), slopes, before, feedback, heads, expected);
+    const auto next = predicted(near ? near->loads : loads(state), slopes, before, feedback, carries, heads, expected);
     if (!next) return Eigen::Vector2d::Constant(infinite);
     const VectorXd change_of_c = now.slopes(-by_bending(*next - before)).c;
     JointEquations displaced = feedback.displaced(*next);
@@ -169,7 +180,7 @@ Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, Heads heads, std::
     if (!(change_of_c.allFinite() && walk.jump({factor, now.c() + change_of_c})) && !walk.jump({factor, now.c()}))
       return Eigen::Vector2d::Constant(infinite);
     state = joint_state(joint_, displaced, walk.unchecked_step(), false);
-    shapes = bent(loads(state), heads);
+    shapes = bent(loads(state), carries, heads);
     mismatch = change(expected, shapes);
     if (mismatch.maxCoeff() <= scene_.bending.mismatch) return mismatch;
     near.emplace(SolvedPoint(std::move(displaced), factor, walk.here().c), *next, loads(state));
@@ -181,13 +192,13 @@ void Bending::set_rows(Index k, Index at, const StackLoads& loads, const StackSh
                        PlateBending& bending) const {
   const StackSheet& sheet = axes_[k].stack.sheets[at];
   for (Index row = 0; row < std::ssize(sheet.rows); ++row) {
-    const Index of_all = axes_[k].first_row[at] + row;
-    const int loaded = more_loaded_side(sheet, loads.N[at], row);
-    for (const int side : {0, 1}) bending.moment(of_all, 2 * side + heads) = shape.moment[at](row, side);
-    const double gross = gross_stress(sheet, loads.N[at], row, loaded);
-    const double bent = bending_stress(sheet, row, loaded, shape.moment[at](row, loaded));
+    const Index of_all = axes_[k].first_row[at] + row, node = sheet.rows[row];
+    const int loaded = more_loaded_side(sheet, loads.N[at], node);
+    for (const int side : {0, 1}) bending.moment(of_all, 2 * side + heads) = shape.moment[at](node, side);
+    const double gross = gross_stress(sheet, loads.N[at], node, loaded);
+    const double bent = bending_stress(sheet, node, loaded, shape.moment[at](node, loaded));
     bending.k_b(of_all, heads) = gross == 0 ? 0 : std::abs(bent / gross);
-    bending.deflection(of_all, heads) = shape.w[at][sheet.rows[row]];
+    bending.deflection(of_all, heads) = shape.w[at][node];
   }
   for (Index j = 0; heads == free_heads && j < std::ssize(shape.pressed); ++j) {
     const StackLink& link = axes_[k].stack.links[j];
@@ -204,30 +215,27 @@ void Bending::set_rows(Index k, Index at, const StackLoads& loads, const StackSh
   }
 }
 
-void Bending::set_hole(Index at, Index hole, const std::vector<StackLoads>& in_plane, const HoleState& state,
-                       Heads heads, PlateBending& bending) const {
+void Bending::set_hole(Index at, Index hole, const std::vector<StackLoads>& in_plane, const Shapes& shapes,
+                       const HoleState& state, Heads heads, PlateBending& bending) const {
   const PlateModel& plate = joint_.plates[at];
-  std::array<std::array<double, 2>, 2> lower{}, upper{};  // along x and y, before and behind the row
+  std::array<std::array<double, 2>, 2> lower{}, upper{};  // along x and y, before and behind the hole
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const StackSheet& sheet = axes_[k].stack.sheets[at];
     const int axis = axes_[k].axis;
-    for (Index row = 0; row < std::ssize(sheet.rows); ++row) {
-      const double place = plate.stresses.rim_center(hole, axis);
-      if (std::abs(place - sheet.at[sheet.rows[row]]) > row_tolerance(plate, axis)) continue;
-      // The strip of a hole may carry more than the mean of the sheet.
-      const VectorXd& N = in_plane[k].N[at];
-      const double strip = state.gross_stress[axis],
-                   gross = gross_stress(sheet, N, row, more_loaded_side(sheet, N, row));
-      const double share = std::isfinite(strip) && gross != 0 ? std::abs(strip / gross) : 1;
-      for (const int side : {0, 1}) {
-        const double M = bending.moment(axes_[k].first_row[at] + row, 2 * side + heads);
-        lower[axis][side] = share * bending_stress(sheet, row, side, M);
-        upper[axis][side] = -lower[axis][side];
-      }
+    Index node = 0;
+    (sheet.at.array() - plate.stresses.rim_center(hole, axis)).abs().minCoeff(&node);
+    // The strip of a hole may carry more than the mean of the sheet.
+    const VectorXd& N = in_plane[k].N[at];
+    const double strip = state.gross_stress[axis],
+                 gross = gross_stress(sheet, N, node, more_loaded_side(sheet, N, node));
+    const double share = std::isfinite(strip) && std::isfinite(gross) && gross != 0 ? std::abs(strip / gross) : 1;
+    for (const int side : {0, 1}) {
+      lower[axis][side] = share * bending_stress(sheet, node, side, shapes[k].moment[at](node, side));
+      upper[axis][side] = -lower[axis][side];
     }
   }
-  const auto on_lower = peak_with_bending(state.hoop, lower, K_[at][hole]),
-             on_upper = peak_with_bending(state.hoop, upper, K_[at][hole]);
+  const auto on_lower = peak_with_bending(state.hoop, lower, K_[at](hole, 0), K_[at](hole, 1)),
+             on_upper = peak_with_bending(state.hoop, upper, K_[at](hole, 0), K_[at](hole, 1));
   bending.lower(hole, heads) = on_lower.value, bending.lower_angle(hole, heads) = on_lower.angle;
   bending.upper(hole, heads) = on_upper.value, bending.upper_angle(hole, heads) = on_upper.angle;
   double& largest = bending.stress(hole, heads) = 0;
@@ -241,6 +249,7 @@ void Bending::set(const std::vector<StackLoads>& in_plane, const Shapes& shapes,
   for (Index at = 0; at < std::ssize(joint_.plates); ++at) {
     const PlateState& its = bent.plates[at];
     PlateBending& bending = state.plates[at].bending;
+    bending.computed[heads] = true;
     bending.De.col(heads) += its.De, bending.Pe.col(heads) = its.Pe;
     for (Index k = 0; k < std::ssize(axes_); ++k) {
       for (Index i = 0; i < its.De.size() && scene_.bending.way_back; ++i)
@@ -250,12 +259,12 @@ void Bending::set(const std::vector<StackLoads>& in_plane, const Shapes& shapes,
       set_rows(k, at, bent_loads[k], shapes[k], heads, bending);
     }
     for (Index hole = 0; hole < bending.stress.rows(); ++hole)
-      set_hole(at, hole, in_plane, state.plates[at].rims[hole], heads, bending);
+      set_hole(at, hole, in_plane, shapes, state.plates[at].rims[hole], heads, bending);
   }
   state.bent_transferred.col(heads) = bent.transferred_first;
 }
 
-void Bending::add(const SolvedPoint& point, JointState& state) const {
+void Bending::add(const SolvedPoint& point, const PathStep& step, JointState& state) const {
   if (axes_.empty()) return;
   state.bending_mismatch.setConstant(2, 2, std::nan(""));
   for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
@@ -267,13 +276,14 @@ void Bending::add(const SolvedPoint& point, JointState& state) const {
   }
   state.bent_transferred.setConstant(joint_.n_planes(), 2, std::nan(""));
   std::optional<BentPoint> near;
+  const auto in_plane = loads(state);
+  const auto carries = carrying(in_plane);
   for (const Heads heads : scene_.bending.heads) {
     JointState now = state;
-    const auto in_plane = loads(state);
-    Shapes shapes = bent(in_plane, heads);
+    Shapes shapes = bent(in_plane, carries, heads);
     if (scene_.bending.way_back) {
       auto mismatch = state.bending_mismatch.col(heads);
-      const Eigen::Vector2d found = solve_back(point, heads, near, now, shapes);
+      const Eigen::Vector2d found = solve_back(point, step, carries, heads, near, now, shapes);
       for (const AxisStack& its : axes_) mismatch[its.axis] = found[its.axis];
     }
     set(in_plane, shapes, now, heads, state);

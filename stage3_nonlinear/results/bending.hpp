@@ -23,23 +23,26 @@ class Bending {
   /// Sets the bending of an increment that was solved: JointState::bending and that of its plates. The slopes and the
   /// shortening of the sheets act back on the forces in the plane: the joint is solved again with the sheets displaced
   /// by them, until the moments change by no more than BendingScene::mismatch.
-  /// @param point The solution with its tangent, by which the way back is predicted.
-  void add(const SolvedPoint& point, JointState& state) const;
+  /// @param point, step The solution; with its tangent, by which the way back is predicted.
+  void add(const SolvedPoint& point, const PathStep& step, JointState& state) const;
 
  private:
   using Shapes = StackShapes;
 
   /// Forces in the plane of each stack, linear in the state.
   [[nodiscard]] std::vector<StackLoads> loads(const JointState& state) const;
-  [[nodiscard]] Shapes bent(std::vector<StackLoads> loads, Heads heads) const;
+  /// Whether the joint carries load along each axis.
+  [[nodiscard]] std::vector<bool> carrying(const std::vector<StackLoads>& loads) const;
+  /// Shapes of the stacks along the axes that carry; those of the others are straight.
+  [[nodiscard]] Shapes bent(std::vector<StackLoads> loads, const std::vector<bool>& carries, Heads heads) const;
   /// Largest change of the moments along each axis, relative to the largest of all.
   [[nodiscard]] Eigen::Vector2d change(const Shapes& before, const Shapes& now) const;
   /// Amounts of the feedback with which the shapes are those that they lead to, if loads follow by their slopes from
   /// those at the amounts `base_z`; none if that finds none.
   [[nodiscard]] std::optional<VectorXd> predicted(const std::vector<StackLoads>& base,
                                                   const std::vector<std::vector<StackLoads>>& slopes,
-                                                  const VectorXd& base_z, const BendingFeedback& feedback, Heads heads,
-                                                  Shapes& shapes) const;
+                                                  const VectorXd& base_z, const BendingFeedback& feedback,
+                                                  const std::vector<bool>& carries, Heads heads, Shapes& shapes) const;
   /// A solution with bending from which the next is predicted: amounts of the feedback, and the loads that they lead
   /// to.
   struct BentPoint {
@@ -52,8 +55,8 @@ class Bending {
   };
   /// Bends with the way back. @param near Starts there; set where one solution from the plane is not enough.
   /// @param state That in the plane, replaced by that with bending. @return mismatch by axis.
-  Eigen::Vector2d solve_back(const SolvedPoint& point, Heads heads, std::optional<BentPoint>& near, JointState& state,
-                             Shapes& shapes) const;
+  Eigen::Vector2d solve_back(const SolvedPoint& point, const PathStep& step, const std::vector<bool>& carries,
+                             Heads heads, std::optional<BentPoint>& near, JointState& state, Shapes& shapes) const;
   /// Sets what follows from the shapes. @param in_plane Loads of the solution in the plane. @param bent The joint with
   /// bending. @param state The solution in the plane.
   void set(const std::vector<StackLoads>& in_plane, const Shapes& shapes, const JointState& bent, Heads heads,
@@ -61,14 +64,14 @@ class Bending {
   /// Sets the rows of a plate along the axis k.
   void set_rows(Index k, Index at, const StackLoads& loads, const StackShape& shape, Heads heads,
                 PlateBending& bending) const;
-  /// Sets a hole of a plate from its rows.
-  void set_hole(Index at, Index hole, const std::vector<StackLoads>& in_plane, const HoleState& state, Heads heads,
-                PlateBending& bending) const;
+  /// Sets a hole of a plate by the moments there.
+  void set_hole(Index at, Index hole, const std::vector<StackLoads>& in_plane, const Shapes& shapes,
+                const HoleState& state, Heads heads, PlateBending& bending) const;
 
   const JointModel& joint_;
   const JointScene& scene_;
   std::vector<AxisStack> axes_;
-  std::vector<Eigen::VectorXd> K_;  ///< of each plate, bending_concentration at its holes; NaN if not known
+  std::vector<MatrixXd> K_;  ///< of each plate, bending_concentration and Poisson's ratio at its holes
 };
 
 /// What bending adds to the results of a sheet, and of the joint; none of one without bending.

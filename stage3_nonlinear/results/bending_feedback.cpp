@@ -12,8 +12,8 @@ VectorXd shortened(const PlateModel& plate, int axis, const StackSheet& sheet, c
   const double from = plate.places.support_middle(axis, 0), to = plate.places.support_middle(axis, 1);
   if (to - from > row_tolerance(plate, axis))
     return VectorXd::Zero(integral.size());  // supports hold both ends, and its shortening is a strain
-  Index fixed = 0;
-  if (plate.places.support.row(axis).squaredNorm() > 0 || from != 0) (sheet.at.array() - from).abs().minCoeff(&fixed);
+  Index fixed = 0;                           // any node of a sheet without supports, which moves freely
+  (sheet.at.array() - from).abs().minCoeff(&fixed);
   return integral[fixed] - integral.array();
 }
 

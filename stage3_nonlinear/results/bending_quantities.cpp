@@ -6,6 +6,16 @@
 
 namespace fastjoint::stage3 {
 
+namespace {
+
+/// The larger or the smaller of the heads that were computed; NaN if one of them is not known.
+double of_heads(const MatrixXd& all, const std::array<bool, 2>& computed, Index row, bool larger) {
+  if (!computed[0] || !computed[1]) return all(row, computed[0] ? 0 : 1);
+  return larger ? all.row(row).maxCoeff<Eigen::PropagateNaN>() : all.row(row).minCoeff<Eigen::PropagateNaN>();
+}
+
+}  // namespace
+
 std::vector<PlateGroup> bending_quantities(const PlateModel& plate) {
   using namespace columns;
   if (!plate.bends) return {};
@@ -81,8 +91,8 @@ std::vector<PlateGroup> bending_quantities(const PlateModel& plate) {
          std::vector<MatrixXd> all{MatrixXd(faces.rows(), faces.rows() > 0 ? 1 : 0)};
          all.push_back(all[0]);
          for (Index i = 0; i < faces.rows(); ++i) {
-           all[0](i, 0) = std::fmax(faces(i, 0), faces(i, 1));
-           all[1](i, 0) = std::fmin(faces(i, 0), faces(i, 1));
+           all[0](i, 0) = of_heads(faces, its.computed, i, true);
+           all[1](i, 0) = of_heads(faces, its.computed, i, false);
          }
          return all;
        })}};

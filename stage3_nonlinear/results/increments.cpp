@@ -84,7 +84,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
       slopes = state_slopes(all.numbers, point);
       all.sensitivity.push_back(sensitivity(slopes, point));
     }
-    if (wanted.bending != nullptr) wanted.bending->add(point, state);
+    if (wanted.bending != nullptr) wanted.bending->add(point, step, state);
     append(all.spots, spots_of(state));
     if (!wanted.keep_loaded_rims)
       for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);

@@ -54,6 +54,9 @@ StackSheet sheet_of(const PlateModel& plate, const BendingScene& scene, int axis
     if (plate.external_axis[i] == axis) add(plate.places.external.row(i).mean());
   for (Index i = 0; i < plate.n_tractions(); ++i)
     if (plate.traction_axis[i] == axis && !plate.is_moment(i)) add(plate.places.traction.row(i).mean());
+  for (const double center : plate.stresses.rim_center.col(axis)) add(center);
+  if (plate.stress_level)
+    for (const double center : plate.stresses.rim_center.col(axis)) add(center);
   std::ranges::sort(nodes);
   StackSheet sheet;
   const Index n = std::ssize(nodes);

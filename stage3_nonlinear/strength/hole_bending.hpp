@@ -8,7 +8,7 @@ namespace fastjoint::stage3 {
 
 /// Concentration of the bending stress at a hole of a wide plate that bends along one direction, by Reissner's theory
 /// of plates with shear: E. Reissner, The effect of transverse shear deformation on the bending of elastic plates, J.
-/// Appl. Mech. 12, 1945, with mu = sqrt(10) a / t; of cylindrical bending, in which the plate does not curve across.
+/// Appl. Mech. 12, 1945, with mu = sqrt(10) a / t.
 /// @param radius_by_thickness a / t, > 0. @param nu Poisson's ratio.
 [[nodiscard]] double bending_concentration(double radius_by_thickness, double nu);
 
@@ -22,8 +22,9 @@ struct PeakWithBending {
 ///              degrees; NaN where not known. None: the result is NaN.
 /// @param along Bending stress on the face along x and y: of each a value before and one behind the row, of which the
 ///              worse counts, stress.
-/// @param K     bending_concentration.
+/// @param K     bending_concentration. In cylindrical bending, in which the sheet does not curve across, nu times the
+///              stress acts across too. @param nu Poisson's ratio.
 [[nodiscard]] PeakWithBending peak_with_bending(const Eigen::VectorXd& hoop,
-                                                const std::array<std::array<double, 2>, 2>& along, double K);
+                                                const std::array<std::array<double, 2>, 2>& along, double K, double nu);
 
 }  // namespace fastjoint::stage3

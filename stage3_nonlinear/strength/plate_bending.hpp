@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 namespace fastjoint::stage3 {
@@ -18,6 +19,8 @@ struct PlateBending {
   Eigen::MatrixXd De, Pe;              ///< (e, 2) of rigid externals, length, force
 
   Eigen::MatrixXd at_tip;  ///< (t, 2) k_b of the row next to each tip of a crack
+
+  std::array<bool, 2> computed{};  ///< heads
 
   PlateBending() = default;
   PlateBending(Eigen::Index rows, Eigen::Index holes, Eigen::Index externals, Eigen::Index tips)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "stage3_nonlinear/strength/beam_column.hpp"
@@ -91,10 +92,11 @@ class BentStack {
     VectorXd all(std::ssize(number) - 1);
     for (Index i = 0; i < all.size(); ++i) all[i] = number[i] < 0 ? 0 : u[number[i]];
     describe(all, motions, shape);
-    shape.is_known = is_known_;
+    shape.buckles = shape.buckles || bay_buckles();
     return shape;
   }
 
+  [[nodiscard]] bool is_known() const { return is_known_; }
   /// Links at which free heads would press one sheet into the other.
   [[nodiscard]] std::vector<bool> pressed(const StackShape& shape, double steepest) const {
     constexpr double rounding = 1e-9, gives_way = 0.25;
@@ -104,8 +106,8 @@ class BentStack {
       const double lower = shape.slope[link.lower][lower_node(link)];
       const double upper = link.upper < 0 ? 0 : shape.slope[link.upper][upper_node(link)];
       for (const int side : {0, 1}) {
-        if (stack_.sheets[link.lower].beside(link.lower_row, side) < 0) continue;
-        if (link.upper >= 0 && stack_.sheets[link.upper].beside(link.upper_row, side) < 0) continue;
+        if (stack_.sheets[link.lower].beside(lower_node(link), side) < 0) continue;
+        if (link.upper >= 0 && stack_.sheets[link.upper].beside(upper_node(link), side) < 0) continue;
         const double sign = side == 0 ? -1 : 1;
         const double towards = std::max(0.0, sign * lower) + std::max(0.0, -sign * upper);
         const double closes = sign * (lower - upper);
@@ -141,8 +143,19 @@ class BentStack {
     }
   }
 
+  /// True if a bay buckles between its ends even if these are clamped, which no eigenvalue of the exact stiffness tells
+  /// (W. H. Wittrick, F. W. Williams, A general algorithm for computing natural frequencies of elastic structures,
+  /// Q. J. Mech. Appl. Math. 24, 1971).
+  [[nodiscard]] bool bay_buckles() const {
+    constexpr double pi = std::numbers::pi;
+    for (Index i = 0; i < std::ssize(stack_.sheets); ++i)
+      for (Index k = 0; k < stack_.sheets[i].EI.size(); ++k)
+        if (const BeamColumn its = beam(i, k); - its.N * its.length * its.length >= 4 * pi * pi * its.EI) return true;
+    return false;
+  }
+
   /// Solution of a system that may be free to move, by eigenvectors: none of a motion without stiffness, which no force
-  /// drives. NaN if a stiffness is negative.
+  /// drives, and of a negative stiffness.
   static VectorXd solved(const MatrixXd& K, const VectorXd& f, bool& buckles) {
     if (f.size() == 0) return f;
     constexpr double rounding = 1e-11;  // of stiffnesses scaled to 1 on the diagonal
@@ -151,7 +164,7 @@ class BentStack {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * K * scale.asDiagonal());
     const VectorXd& values = eigen.eigenvalues();
     buckles = values[0] < -rounding;
-    if (buckles) return VectorXd::Constant(f.size(), std::nan(""));
+    if (buckles) return VectorXd::Zero(f.size());
     VectorXd parts = eigen.eigenvectors().transpose() * scale.cwiseProduct(f);
     for (Index i = 0; i < parts.size(); ++i) parts[i] = values[i] > rounding ? parts[i] / values[i] : 0;
     return scale.cwiseProduct(eigen.eigenvectors() * parts);
@@ -163,7 +176,7 @@ class BentStack {
       const StackSheet& sheet = stack_.sheets[i];
       const Index s = sheet.EI.size();
       const auto its = u.segment(motions.w(i, 0), 2 * (s + 1)).reshaped(2, s + 1);
-      shape.w.emplace_back(is_known_ ? VectorXd(its.row(0)) : VectorXd::Constant(s + 1, std::nan("")));
+      shape.w.emplace_back(its.row(0));
       shape.slope.emplace_back(its.row(1));
       VectorXd& shortened = shape.shortened.emplace_back(VectorXd::Zero(s + 1));
       MatrixXd ends(s, 2);  // moments E I w'' at the ends of each segment
@@ -173,11 +186,9 @@ class BentStack {
         ends.row(k) << -forces[1], forces[3];
         shortened[k + 1] = shortened[k] + at.dot(beam(i, k).by_tension() * at) / 2;
       }
-      MatrixXd& moment = shape.moment.emplace_back(MatrixXd::Zero(std::ssize(sheet.rows), 2));
-      for (Index row = 0; row < moment.rows(); ++row)
-        for (const int side : {0, 1})
-          if (const Index k = sheet.beside(row, side); k >= 0)
-            moment(row, side) = is_known_ ? ends(k, 1 - side) : std::nan("");
+      MatrixXd& moment = shape.moment.emplace_back(MatrixXd::Zero(s + 1, 2));
+      moment.block(1, 0, s, 1) = ends.col(1);
+      moment.block(0, 1, s, 1) = ends.col(0);
     }
   }
 
@@ -188,8 +199,8 @@ class BentStack {
 
 }  // namespace
 
-Index StackSheet::beside(Index row, int side) const {
-  const Index segment = rows[row] - 1 + side;
+Index StackSheet::beside(Index node, int side) const {
+  const Index segment = node - 1 + side;
   return segment < EI.size() ? segment : -1;
 }
 
@@ -204,7 +215,7 @@ StackShape SheetStack::bend(const StackLoads& loads, bool clamped_heads) const {
   StackShape shape = stack.solve(clamped);
   double steepest = 0;
   for (const auto& slope : shape.slope) steepest = std::max(steepest, slope.lpNorm<Eigen::Infinity>());
-  while (!clamped_heads && shape.is_known && !shape.buckles) {
+  while (!clamped_heads && !shape.buckles) {
     const auto pressed = stack.pressed(shape, steepest);
     bool is_new = false;
     for (std::size_t j = 0; j < clamped.size(); ++j)
@@ -213,6 +224,17 @@ StackShape SheetStack::bend(const StackLoads& loads, bool clamped_heads) const {
     shape = stack.solve(clamped);
   }
   shape.pressed = clamped_heads ? std::vector<bool>(links.size(), false) : clamped;
+  // Without known tension the sheets have none here, which does not matter where they stay straight.
+  double lever = 0, largest = 0;
+  for (std::size_t j = 0; j < links.size(); ++j)
+    lever = std::max(lever, std::abs(loads.q[Index(j)]) * sheets[links[j].lower].thickness_at(links[j].lower_row));
+  for (const auto& moment : shape.moment) largest = std::max(largest, moment.lpNorm<Eigen::Infinity>());
+  constexpr double rounding = 1e-9;
+  shape.is_known = stack.is_known() || largest <= rounding * lever;
+  if (shape.is_known && !shape.buckles) return shape;
+  for (auto* parts : {&shape.w, &shape.slope, &shape.shortened})
+    for (auto& each : *parts) each.setConstant(std::nan(""));
+  for (auto& each : shape.moment) each.setConstant(std::nan(""));
   return shape;
 }
 

@@ -22,8 +22,8 @@ struct StackSheet {
 
   /// Midpoints of the segments, (s).
   [[nodiscard]] VectorXd middles() const { return (at.head(EI.size()) + at.tail(EI.size())) / 2; }
-  /// Segment on a side of a row, 0 before it, 1 behind it; -1 beyond an end.
-  [[nodiscard]] Index beside(Index row, int side) const;
+  /// Segment on a side of a node, 0 before it, 1 behind it; -1 beyond an end.
+  [[nodiscard]] Index beside(Index node, int side) const;
   /// Mean thickness of the segments at a row.
   [[nodiscard]] double thickness_at(Index row) const;
 };
@@ -46,7 +46,7 @@ struct StackLoads {
 struct StackShape {
   std::vector<VectorXd> w, slope;   ///< of each sheet, (s + 1) deflection, length, and its derivative
   std::vector<VectorXd> shortened;  ///< (s + 1) integral of w'^2 / 2 from the first node, length
-  std::vector<MatrixXd> moment;     ///< of each sheet, (rows, 2) E I w'' before and behind each row, force length
+  std::vector<MatrixXd> moment;     ///< of each sheet, (s + 1, 2) E I w'' before and behind each node, force length
   std::vector<bool> pressed;        ///< of each link: free heads would press one sheet into the other
   bool buckles = false;             ///< compression makes the stack unstable: all the rest is NaN
   bool is_known = true;             ///< false where a tension is not: all the rest is NaN

@@ -77,8 +77,10 @@ VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& s
                               const std::string& case_name) const {
   JointState state = joint_state(joint_, equations, step);
   if (imbalance(equations, step, state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
-  if (outputs_.need_bending()) bending_.add(SolvedPoint(equations, step.load_factor, step.c), state);
-  return outputs_.numbers({joint_, equations, step, state, 0}, case_name);
+  if (outputs_.need_bending()) bending_.add(SolvedPoint(equations, step.load_factor, step.c), step, state);
+  VectorXd all = outputs_.numbers({joint_, equations, step, state, 0}, case_name);
+  if (state.no_bending != nullptr && all.array().isNaN().any()) throw NumericalError(state.no_bending);
+  return all;
 }
 
 SampleNumbers StudySolver::solve(const JointScene& scene, const VectorXd& away) const {
