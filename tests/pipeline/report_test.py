@@ -190,7 +190,7 @@ def browse(folder, page):
     log = folder / "net.json"
     headless = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={folder / 'profile'}"]
     no_network = ["--proxy-server=127.0.0.1:9", "--proxy-bypass-list=<-loopback>", f"--log-net-log={log}"]  # nothing listens there
-    outputs = ["--dump-dom", f"--screenshot={folder / 'page.png'}", "--hide-scrollbars", "--window-size=1100,5000",
+    outputs = ["--dump-dom", f"--screenshot={folder / 'page.png'}", "--hide-scrollbars", "--window-size=1100,8000",
                f"--print-to-pdf={folder / 'page.pdf'}", "--no-pdf-header-footer"]
     done = subprocess.run(["chromium", *headless, *no_network, *outputs, page.as_uri()], env={**os.environ, "HOME": str(folder)},
                           capture_output=True, text=True, timeout=25, check=True)
