@@ -3,8 +3,11 @@
 that its moments, deflections and tension say."""
 import numpy as np
 
+from json_file import parse_json
+
 HEADS = {"free": "-", "clamped": "--"}
 POINTS = 40  # of a bay
+SIDES = {"x": ("left", "right"), "y": ("bottom", "top")}
 
 
 def beam(x, w, M, N, EI):
@@ -26,17 +29,35 @@ def slope(x0, x1, w, M, N, EI):
     return (beam(np.array([x0, near, x1]), w, M, N, EI)[1] - w[0]) / (near - x0)
 
 
-def outer(x, w, M, N, EI, at_row, held):
+def outer(x, w, M, N, EI, at_row, hold):
     """Deflection of the bay from the outer row at x[0] to an end of the sheet at x[-1], by its slope at the row; None: not known."""
-    if not held or abs(N) == 0:
+    if hold == "free" or abs(N) == 0:
         return w + (at_row or 0) * (x - x[0])
-    first, second = (slope(x[0], x[-1], (w, 0), (M, end), N, EI) for end in (0, 1))  # linear in the moment of a clamped end
-    end = 0 if at_row is None else (at_row - first) / (second - first)
-    return beam(x, (w, 0), (M, end), N, EI)
+
+    def slopes(end, moment):
+        """At the row and at the end, linear in both."""
+        return np.array([slope(x[0], x[-1], (w, end), (M, moment), N, EI), slope(x[-1], x[0], (end, w), (moment, M), N, EI)])
+
+    end = moment = 0
+    base = slopes(0, 0)
+    if hold == "clamped" and at_row is not None:
+        moment = (at_row - base[0]) / (slopes(0, 1) - base)[0]
+    elif hold == "symmetric":
+        wanted = np.array([base[0] if at_row is None else at_row, 0])
+        end, moment = np.linalg.solve(np.column_stack([slopes(1, 0) - base, slopes(0, 1) - base]), wanted - base)
+    return beam(x, (w, end), (M, moment), N, EI)
 
 
-def deflection(plate, axis, increment, heads):
-    """Coordinates along an axis and deflections of a sheet, a group of RESULT.h5; None of one without rows along it."""
+def holds_of(file):
+    """What JOINT.json says of the ends of its sheets: {sheet: {side: word}}."""
+    bending = parse_json(file["input"].asstr()[()]).get("bending", {})
+    return bending.get("ends", {}) if isinstance(bending, dict) else {}
+
+
+def deflection(plate, axis, increment, heads, given=None):
+    """Coordinates along an axis and deflections of a sheet, a group of RESULT.h5; None of one without rows along it.
+
+    given: what JOINT.json says of its ends, {side: word}."""
     rows = plate["row/direction"].asstr()[:] == axis
     bays = plate["bay/direction"].asstr()[:] == axis
     if not rows.any() or not bays.any():
@@ -49,6 +70,8 @@ def deflection(plate, axis, increment, heads):
     def stiffness(a, b):
         return EI[max(0, np.searchsorted(ends[:, 0], (a + b) / 2) - 1)]
 
+    holds = [(given or {}).get(side, "hinged" if is_held else "free")
+             for side, is_held in zip(SIDES[axis], (held[0][0], held[-1][1]))]
     xs, ws, slopes = [], [], [None, None]
     for i in range(len(at) - 1):
         bay = (w[i:i + 2], (M[i, 1], M[i + 1, 0]), N[i + 1], stiffness(*at[i:i + 2]))
@@ -61,7 +84,7 @@ def deflection(plate, axis, increment, heads):
         if x0 == x1:
             continue
         x = x0 + (x1 - x0) * np.linspace(0, 1, 4 * POINTS)**2  # the shape is steepest at the row
-        its = outer(x, w[-side], M[-side, side], N[-side], stiffness(x0, x1), slopes[side], held[-side][side])
+        its = outer(x, w[-side], M[-side, side], N[-side], stiffness(x0, x1), slopes[side], holds[side])
         xs.insert(len(xs) * side, x if side else x[::-1])
         ws.insert(len(ws) * side, its if side else its[::-1])
     return np.concatenate(xs), np.concatenate(ws)
@@ -82,10 +105,11 @@ def bending_axes(file, increment):
 
 def draw_stack(axes, file, axis, increment):
     """Draws the deflections of all sheets along an axis."""
+    given = holds_of(file)
     for i, name in enumerate(file["plate/name"].asstr()[:]):
         plate = file[f"plates/{name}"]
         for heads, (word, style) in enumerate(HEADS.items()):
-            curve = deflection(plate, axis, increment, heads)
+            curve = deflection(plate, axis, increment, heads, given.get(name))
             if curve is None or np.isnan(curve[1]).any():
                 continue
             axes.plot(*curve, style, color=f"C{i}", label=name if style == "-" or len(HEADS) == 1 else None)

@@ -8,11 +8,15 @@ from pathlib import Path
 TOKENS = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.S)
 
 
+def parse_json(text):
+    """What a text with comments holds."""
+    return json.loads(TOKENS.sub(lambda found: found[0] if found[0][0] == '"' else re.sub(r"[^\n]", " ", found[0]), text))
+
+
 def read_json(path, program):
     """What a file holds. Ends the program with status 2 and a message if it cannot be read."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
-        return json.loads(TOKENS.sub(lambda found: found[0] if found[0][0] == '"' else re.sub(r"[^\n]", " ", found[0]), text))
+        return parse_json(Path(path).read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         fail(program, f"{path}: cannot be read: {error}")
 

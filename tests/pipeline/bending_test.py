@@ -19,7 +19,7 @@ import beam_stack  # noqa: E402
 from scripts import run_script  # noqa: E402
 
 sys.path.insert(0, str(ROOT / "scripts/python"))
-from bent_shape import deflection  # noqa: E402
+from bent_shape import deflection, holds_of  # noqa: E402
 
 PROGRAMS = Path(sys.argv[1]).resolve()
 E, WIDTH = 72000, 20
@@ -286,6 +286,25 @@ def picture():
     assert result.returncode == 2 and "no sheets that bend" in result.stderr and not Path("flat.png").exists(), result
 
 
+def symmetric_half():
+    """Half a doubler with its plane of symmetry is the whole one, in numbers and in the picture."""
+    drawn = {}
+    for half in (False, True):
+        xs = [10, 30] if half else [-30, -10, 10, 30]
+        chain("skin", xs, (0, 120) if half else (-120, 120), ("ground={k}", "external:P={k}"), 2)
+        chain("doubler", xs, (0 if half else -38, 38), ("ground={k}" if half else "free", "free"), 1.5)
+        bending = {"way_back": False, "heads": "clamped"}
+        if half:
+            bending["ends"] = {"skin": {"left": "symmetric"}, "doubler": {"left": "symmetric"}}
+        with solve(("skin", "doubler"), [[f"skin:{i + 1}", f"doubler:{i + 1}"] for i in range(len(xs))], 40000,
+                   [{"external": "skin:P", "force": 4000}], bending) as f:
+            drawn[half] = {name: deflection(f[f"plates/{name}"], "x", 0, CLAMPED, holds_of(f).get(name)) for name in ("skin", "doubler")}
+    for name in ("skin", "doubler"):
+        x = np.linspace(0.1, 37.9, 50)
+        whole, half = (np.interp(x, *drawn[each][name]) for each in (False, True))
+        assert np.allclose(half, whole, atol=1e-3 * np.abs(whole).max()), (name, half, whole)
+
+
 def left_alone():
     """Bending changes no other result; a contradictory order is refused where it matters; a study's samples are runs."""
     for name in ("lower", "upper"):
@@ -344,6 +363,6 @@ def buckling():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for check in (tables, published, closed_forms, stacks, strap, double_shear, strips, picture, left_alone, buckling):
+    for check in (tables, published, closed_forms, stacks, strap, double_shear, strips, picture, symmetric_half, left_alone, buckling):
         check()
     os.chdir(ROOT)
