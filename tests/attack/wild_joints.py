@@ -113,14 +113,14 @@ def _friction(random, fastener, holes):
 
 
 def _fasteners(random, layout, plates, laws, to_ground, stretch):
-    """One fastener at each place: through all sheets that have a hole there, in one order or another, and sometimes on to
+    """One fastener at each place: through all sheets that have a hole there, in the order of the stack, and sometimes on to
     the ground."""
     scene = Scene(plates, {})
-    holes, fasteners = scene.holes(), []
+    holes, fasteners, stack = scene.holes(), [], list(plates)
+    if chance(random, 0.3):
+        random.shuffle(stack)
     for i, j in layout.fasteners():
-        order = [name for name in plates if f"{name}:{i}{j}" in holes]
-        if chance(random, 0.3):
-            random.shuffle(order)
+        order = [name for name in stack if f"{name}:{i}{j}" in holes]
         between = [f"{name}:{i}{j}" for name in order]
         if to_ground or len(between) == 1:
             between.append("ground")
