@@ -22,8 +22,8 @@ struct Material {
   /// How much a laminate couples: the largest entry of B over the largest of A and the thickness; 0 of a symmetric
   /// stack.
   double coupling = 0;
-  /// Of a laminate: the elasticity of a homogeneous sheet that is as stiff in bending, 12 D over the cube of its
-  /// thickness, stress.
+  /// Elasticity of a homogeneous sheet that is as stiff in bending as a laminate, 12 D over the cube of its thickness,
+  /// stress; none of another material.
   std::optional<Eigen::Matrix3d> in_bending{};
 };
 

@@ -49,7 +49,7 @@ struct JointState {
   double fasteners_out_of_balance = 0;  ///< largest resultant on a fastener that is not grounded
   /// Largest resultant of a plate along an axis without supports according to its file; none without such an axis.
   std::optional<double> plates_out_of_balance;
-  // With secondary bending, by free and by clamped heads (Bending); none without it.
+  // Results of Bending, by free and by clamped heads; none without secondary bending.
   MatrixXd bending_mismatch = MatrixXd(0, 2);  ///< (2, 2) of the moments along x, y
   const char* no_bending = nullptr;            ///< why some of it is not known; null if all is
   MatrixXd bent_transferred = MatrixXd(0, 2);  ///< (n, 2) as transferred_first, force

@@ -25,7 +25,8 @@ struct BendingScene {
   std::vector<Heads> heads{free_heads, clamped_heads};  ///< those computed
   bool way_back = true;                                 ///< slopes and shortening act back on the forces in the plane
   double mismatch = 0.01;  ///< largest change of the moments by the last solution, relative to the largest
-  /// By plate: its ends at the least and the greatest x, then y; none: hinged where loaded or supported, else free.
+  /// Ends of each plate that it names, at the least and the greatest x, then y; those not given are hinged where they
+  /// are loaded or supported, else free.
   std::map<std::string, std::array<std::optional<EndHold>, 4>> ends{};
 };
 

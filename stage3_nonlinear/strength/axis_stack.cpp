@@ -32,6 +32,7 @@ void check_order(const JointModel& joint, const JointScene& scene) {
   }
 }
 
+/// A sheet as a beam along an axis. @param first_row Is set to its first row among disc_rows, -1 without any.
 StackSheet sheet_of(const PlateModel& plate, const BendingScene& scene, int axis, Index& first_row) {
   const double tolerance = row_tolerance(plate, axis);
   std::vector<std::pair<double, bool>> nodes;  // coordinates, and whether a row is there
@@ -54,8 +55,7 @@ StackSheet sheet_of(const PlateModel& plate, const BendingScene& scene, int axis
     if (plate.external_axis[i] == axis) add(plate.places.external.row(i).mean());
   for (Index i = 0; i < plate.n_tractions(); ++i)
     if (plate.traction_axis[i] == axis && !plate.is_moment(i)) add(plate.places.traction.row(i).mean());
-  for (const double center : plate.stresses.rim_center.col(axis)) add(center);
-  if (plate.stress_level)
+  if (plate.stress_level)  // an open hole has the moment of its place
     for (const double center : plate.stresses.rim_center.col(axis)) add(center);
   std::ranges::sort(nodes);
   StackSheet sheet;
@@ -79,6 +79,7 @@ StackSheet sheet_of(const PlateModel& plate, const BendingScene& scene, int axis
   return sheet;
 }
 
+/// The stack along a direction of the joint's discs.
 AxisStack axis_stack(const JointModel& joint, const BendingScene& scene, Index direction) {
   AxisStack its{direction, joint.axes[direction], {}, {}, {}};
   std::vector<std::vector<DiscRow>> rows;

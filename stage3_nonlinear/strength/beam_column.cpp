@@ -36,7 +36,7 @@ Eigen::Matrix4cd BeamColumn::at(std::complex<double> tension) const {
   return EI / (L * L * L) * K;
 }
 
-/// By a complex step, which is exact to rounding.
+/// The complex step of the derivative makes it exact to rounding.
 Eigen::Matrix4d BeamColumn::by_tension() const {
   constexpr double tiny = 1e-20;
   const double step = tiny * std::max(std::abs(N), EI / (length * length));
