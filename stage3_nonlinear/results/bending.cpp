@@ -110,25 +110,23 @@ Eigen::Vector2d Bending::change(const Shapes& before, const Shapes& now) const {
   return largest > 0 ? Eigen::Vector2d(all / largest) : all;
 }
 
-std::optional<VectorXd> Bending::predicted(const std::vector<StackLoads>& base,
-                                           const std::vector<std::vector<StackLoads>>& slopes, const VectorXd& base_z,
-                                           const BendingFeedback& feedback, const std::vector<bool>& carries,
-                                           Heads heads, Shapes& shapes) const {
+std::optional<VectorXd> Bending::predicted(const BentPoint& from, const BendingFeedback& feedback,
+                                           const std::vector<bool>& carries, Heads heads, Shapes& shapes) const {
   constexpr int most = 30, most_halvings = 10;
   constexpr double enough = 1e-2, step = 1e-6;            // of the mismatch allowed; of the amounts, for differences
   const auto left = [&](const VectorXd& z) -> VectorXd {  // G(z) - z
-    std::vector<StackLoads> loads = base;
+    std::vector<StackLoads> loads = from.loads;
     for (Index k = 0; k < z.size(); ++k)
       for (std::size_t axis = 0; axis < loads.size(); ++axis) {
-        const StackLoads& by = slopes[k][axis];
-        loads[axis].q += (z[k] - base_z[k]) * by.q;
+        const StackLoads& by = from.slopes[k][axis];
+        loads[axis].q += (z[k] - from.z[k]) * by.q;
         for (std::size_t sheet = 0; sheet < by.N.size(); ++sheet)
-          loads[axis].N[sheet] += (z[k] - base_z[k]) * by.N[sheet];
+          loads[axis].N[sheet] += (z[k] - from.z[k]) * by.N[sheet];
       }
     shapes = bent(std::move(loads), carries, heads);
     return feedback.amounts(shapes) - z;
   };
-  VectorXd z = base_z, r = left(z);
+  VectorXd z = from.z, r = left(z);
   const double scale = r.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < most; ++i) {
     if (!r.allFinite()) return std::nullopt;
@@ -147,9 +145,9 @@ std::optional<VectorXd> Bending::predicted(const std::vector<StackLoads>& base,
   return std::nullopt;
 }
 
-Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, const PathStep& step, const std::vector<bool>& carries,
-                                    Heads heads, std::optional<BentPoint>& near, JointState& state,
-                                    Shapes& shapes) const {
+Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, const PathStep& step, double largest_force,
+                                    const std::vector<bool>& carries, Heads heads, BentPoint& near,
+                                    std::optional<JointState>& state, Shapes& shapes) const {
   constexpr int most = 10;
   constexpr double negligible = 0.1;  // of the mismatch allowed
   const double factor = point.load_factor();
@@ -159,31 +157,32 @@ Eigen::Vector2d Bending::solve_back(const SolvedPoint& point, const PathStep& st
   const auto by_bending = [&](const VectorXd& at) -> VectorXd {
     return feedback.displaced(at).rigid_forces(factor) - in_plane;
   };
-  if (by_bending(z).lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * state.largest_force) {
+  if (by_bending(z).lpNorm<Eigen::Infinity>() <= negligible * scene_.bending.mismatch * largest_force) {
     state = joint_state(joint_, feedback.displaced(z), step, false);  // moved, under the same forces
     return Eigen::Vector2d::Zero();
   }
   const PathOptions options{scene_.initial, scene_.solver};
   Eigen::Vector2d mismatch = Eigen::Vector2d::Constant(infinite);
-  const VectorXd none = VectorXd::Zero(z.size());
+  if (near.z.size() == 0) near.z = VectorXd::Zero(z.size());
   for (int i = 0; i < most; ++i) {
-    const SolvedPoint& now = near ? near->point : point;
-    const VectorXd& before = near ? near->z : none;
-    std::vector<std::vector<StackLoads>> slopes;
-    for (const JointState& each : feedback.responses(now)) slopes.push_back(loads(each));
+    const SolvedPoint& now = near.own ? *near.own : point;
+    if (near.slopes.empty())
+      for (const JointState& each : feedback.responses(now)) near.slopes.push_back(loads(each));
     Shapes expected;
-    const auto next = predicted(near ? near->loads : loads(state), slopes, before, feedback, carries, heads, expected);
+    const auto next = predicted(near, feedback, carries, heads, expected);
     if (!next) return Eigen::Vector2d::Constant(infinite);
-    const VectorXd change_of_c = now.slopes(-by_bending(*next - before)).c;
+    const VectorXd change_of_c = now.slopes(-by_bending(*next - near.z)).c;
     JointEquations displaced = feedback.displaced(*next);
     Walk walk(displaced, options);
     if (!(change_of_c.allFinite() && walk.jump({factor, now.c() + change_of_c})) && !walk.jump({factor, now.c()}))
       return Eigen::Vector2d::Constant(infinite);
     state = joint_state(joint_, displaced, walk.unchecked_step(), false);
-    shapes = bent(loads(state), carries, heads);
+    const auto bent_loads = loads(*state);
+    shapes = bent(bent_loads, carries, heads);
     mismatch = change(expected, shapes);
     if (mismatch.maxCoeff() <= scene_.bending.mismatch) return mismatch;
-    near.emplace(SolvedPoint(std::move(displaced), factor, walk.here().c), *next, loads(state));
+    near.own.emplace(std::move(displaced), factor, walk.here().c);
+    near.z = *next, near.loads = bent_loads, near.slopes.clear();
   }
   return mismatch;
 }
@@ -275,18 +274,18 @@ void Bending::add(const SolvedPoint& point, const PathStep& step, JointState& st
     for (const Heads heads : scene_.bending.heads) its.De.col(heads) = point.equations().parameters.free[i].De;
   }
   state.bent_transferred.setConstant(joint_.n_planes(), 2, std::nan(""));
-  std::optional<BentPoint> near;
   const auto in_plane = loads(state);
   const auto carries = carrying(in_plane);
+  BentPoint near{{}, {}, in_plane, {}};
   for (const Heads heads : scene_.bending.heads) {
-    JointState now = state;
+    std::optional<JointState> solved;
     Shapes shapes = bent(in_plane, carries, heads);
     if (scene_.bending.way_back) {
       auto mismatch = state.bending_mismatch.col(heads);
-      const Eigen::Vector2d found = solve_back(point, step, carries, heads, near, now, shapes);
+      const Eigen::Vector2d found = solve_back(point, step, state.largest_force, carries, heads, near, solved, shapes);
       for (const AxisStack& its : axes_) mismatch[its.axis] = found[its.axis];
     }
-    set(in_plane, shapes, now, heads, state);
+    set(in_plane, shapes, solved ? *solved : state, heads, state);
     if (state.bending_mismatch.col(heads).array().isInf().any())
       state.no_bending = "the joint was not solved with the sheets displaced by it, so that it acts one way alone";
     for (const auto& shape : shapes)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "stage3_nonlinear/model/disc_rows.hpp"
@@ -37,26 +36,23 @@ class Bending {
   [[nodiscard]] Shapes bent(std::vector<StackLoads> loads, const std::vector<bool>& carries, Heads heads) const;
   /// Largest change of the moments along each axis, relative to the largest of all.
   [[nodiscard]] Eigen::Vector2d change(const Shapes& before, const Shapes& now) const;
-  /// Amounts of the feedback with which the shapes are those that they lead to, if loads follow by their slopes from
-  /// those at the amounts `base_z`; none if that finds none.
-  [[nodiscard]] std::optional<VectorXd> predicted(const std::vector<StackLoads>& base,
-                                                  const std::vector<std::vector<StackLoads>>& slopes,
-                                                  const VectorXd& base_z, const BendingFeedback& feedback,
-                                                  const std::vector<bool>& carries, Heads heads, Shapes& shapes) const;
-  /// A solution with bending from which the next is predicted: amounts of the feedback, and the loads that they lead
-  /// to.
+  /// Loads of the stacks as linear functions of the amounts of the feedback, from which a solution is predicted: those
+  /// of the solution in the plane, or of the last with bending.
   struct BentPoint {
-    SolvedPoint point;
-    VectorXd z;
+    std::optional<SolvedPoint> own;  ///< none: the solution in the plane
+    VectorXd z;                      ///< its amounts; none: 0
     std::vector<StackLoads> loads;
-
-    BentPoint(SolvedPoint its_point, VectorXd amounts, std::vector<StackLoads> its_loads)
-        : point(std::move(its_point)), z(std::move(amounts)), loads(std::move(its_loads)) {}
+    std::vector<std::vector<StackLoads>> slopes;  ///< by each amount; none: not known yet
   };
-  /// Bends with the way back. @param near Starts there; set where one solution from the plane is not enough.
-  /// @param state That in the plane, replaced by that with bending. @return mismatch by axis.
-  Eigen::Vector2d solve_back(const SolvedPoint& point, const PathStep& step, const std::vector<bool>& carries,
-                             Heads heads, std::optional<BentPoint>& near, JointState& state, Shapes& shapes) const;
+  /// Amounts with which the shapes are those that they lead to; none if that finds none. @param shapes Are set to
+  /// these.
+  [[nodiscard]] std::optional<VectorXd> predicted(const BentPoint& from, const BendingFeedback& feedback,
+                                                  const std::vector<bool>& carries, Heads heads, Shapes& shapes) const;
+  /// Bends with the way back. @param near Where it starts; set where one solution from there is not enough.
+  /// @param state Is set to the joint with bending; none if it was not solved. @return Mismatch by axis.
+  Eigen::Vector2d solve_back(const SolvedPoint& point, const PathStep& step, double largest_force,
+                             const std::vector<bool>& carries, Heads heads, BentPoint& near,
+                             std::optional<JointState>& state, Shapes& shapes) const;
   /// Sets what follows from the shapes. @param in_plane Loads of the solution in the plane. @param bent The joint with
   /// bending. @param state The solution in the plane.
   void set(const std::vector<StackLoads>& in_plane, const Shapes& shapes, const JointState& bent, Heads heads,
