@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/scene/bending_scene.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/count.hpp"
 #include "stage3_nonlinear/scene/joint_scene.hpp"
@@ -11,8 +12,7 @@ namespace fastjoint::stage3 {
 BendingScene read_bending(const input::Value& value, const std::vector<PlateScene>& plates) {
   BendingScene scene;
   if (!value.is_object()) {
-    if (!value.is_string()) value.not_allowed("\"none\", or an object");
-    (void)value.choice({"none"});
+    if (!value.is_string() || value.text() != "none") value.not_allowed("\"none\", or an object");
     scene.is_wanted = false;
     return scene;
   }
@@ -28,8 +28,11 @@ BendingScene read_bending(const input::Value& value, const std::vector<PlateScen
   if (!ends) return scene;
   static const std::vector<std::string> sides{"left", "right", "bottom", "top"},
       holds{"free", "hinged", "clamped", "symmetric"};  // in the order of EndHold
+  std::vector<std::string> names;
+  for (const auto& plate : plates) names.push_back(plate.name);
   for (const auto& [plate, its] : ends->members()) {
-    if (std::ranges::count(plates, plate, &PlateScene::name) == 0) its.fail("no such plate", "names of plates");
+    if (index_of(names, plate) == count_of(names))
+      its.fail(fmt::format("no plate is called \"{}\"", plate), fmt::format("{}", fmt::join(names, ", ")));
     its.only({"left", "right", "bottom", "top"});
     auto& held = scene.ends[plate];
     for (std::size_t i = 0; i < sides.size(); ++i)
