@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "common/count.hpp"
 
@@ -14,6 +13,9 @@ namespace fastjoint::stage1 {
 namespace {
 
 using Point = Eigen::Vector2d;
+
+/// Least size of the elements around a tip, of the plate's size.
+constexpr double least_size = 1e-6;
 
 std::string text(const Point& at) { return fmt::format("({:g}, {:g})", at.x(), at.y()); }
 
@@ -25,10 +27,13 @@ void check_inside(const PlateScene& scene, const GridGeometry& grid, int at) {
         reject_crack(scene, at, fmt::format("it ends at {}, outside the plate", text(end)), "cracks inside the plate");
 }
 
-double distance(const Point& at, const Crack& crack) {
+/// Size that the elements around a tip may have beside another crack: the distance, half of it to a tip, whose elements
+/// need the other half.
+double room_beside(const Point& tip, const Crack& crack) {
   const Point along = crack.to - crack.from;
-  const double fraction = std::clamp((at - crack.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (at - crack.from - fraction * along).norm();
+  const double fraction = std::clamp((tip - crack.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  const bool is_tip = (fraction == 1 && crack.tips > 0) || (fraction == 0 && crack.tips == 2);
+  return (tip - crack.from - fraction * along).norm() / (is_tip ? 2 : 1);
 }
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -53,7 +58,6 @@ void check_apart(const PlateScene& scene, int at, int other) {
 }
 
 double element_size(const PlateScene& scene, const GridGeometry& grid, int at, const Point& tip) {
-  constexpr double least = 1e-6;  // of the plate's size
   const double plate = grid.size();
   const Crack& own = scene.cracks[at];
   double size = (own.to - own.from).norm() / (own.tips == 2 ? 2 : 1);
@@ -72,40 +76,39 @@ double element_size(const PlateScene& scene, const GridGeometry& grid, int at, c
       std::min({tip.x() - grid.x.front(), grid.x.back() - tip.x(), tip.y() - grid.y.front(), grid.y.back() - tip.y()}),
       "the border");
   for (int i = 0; i < count_of(scene.cracks); ++i)
-    if (i != at) consider(distance(tip, scene.cracks[i]), fmt::format("crack {}", i + 1));
-  if (size < least * plate)
+    if (i != at) consider(room_beside(tip, scene.cracks[i]), fmt::format("crack {}", i + 1));
+  if (size < least_size * plate)
     reject_crack(scene, at, fmt::format("its tip at {} is {:.2g} from {}", text(tip), size, what),
-                 fmt::format("{:.2g} at least, {:g} of the plate's diagonal", least * plate, least));
+                 fmt::format("{:.2g} at least, {:g} of the plate's diagonal", least_size * plate, least_size));
   return size;
 }
 
-/// The new place of a cell line.
-struct Move {
-  double to;
-  int crack;  ///< for messages
-  Point tip;
-};
-
+/// Moves cell lines for tips, one after the other. Elements around a tip are made smaller where a line near it stays.
 class Lines {
  public:
-  Lines(const PlateScene& scene, const GridGeometry& grid, const std::vector<std::vector<TipPlace>>& tips)
+  Lines(const PlateScene& scene, const GridGeometry& grid, std::vector<std::vector<TipPlace>>& tips)
       : scene_(scene),
         tips_(tips),
         size_(grid.size()),
         result_{grid},
-        moves_{std::vector<std::optional<Move>>(grid.x.size()), std::vector<std::optional<Move>>(grid.y.size())} {}
+        is_fixed_{std::vector<bool>(grid.x.size()), std::vector<bool>(grid.y.size())} {}
 
   MovedGrid run() {
-    for (int crack = 0; crack < count_of(tips_); ++crack)
-      for (const TipPlace& tip : tips_[crack])
+    for (auto& of_crack : tips_)
+      for (TipPlace& tip : of_crack)
         for (const int axis : {0, 1})
           for (int i = 0; i < count_of(lines(axis)); ++i)
-            if (std::abs(tip.at[axis] - lines(axis)[i]) < near * tip.size) ask(axis, i, {tip.at[axis], crack, tip.at});
+            if (const double off = std::abs(tip.at[axis] - lines(axis)[i]); off < near * tip.size)
+              move_or_refine(axis, i, tip.at[axis], off, tip);
     const auto holes = find_hole_cells(scene_, result_.grid);
     for (int crack = 0; crack < count_of(tips_); ++crack) put_corner_on_ray(crack, holes);
-    for (const int axis : {0, 1})
-      for (int i = 0; i < count_of(lines(axis)); ++i)
-        if (moves_[axis][i]) move(axis, i, *moves_[axis][i]);
+    for (int crack = 0; crack < count_of(tips_); ++crack)
+      for (const TipPlace& tip : tips_[crack])
+        if (tip.size < least_size * size_)
+          reject_crack(scene_, crack,
+                       fmt::format("its tip at {} is {:.2g} from a cell line that cannot be moved through it", text(tip.at),
+                                   near * tip.size),
+                       "a cell line through the tip, or another length");
     return std::move(result_);
   }
 
@@ -115,15 +118,15 @@ class Lines {
 
   [[nodiscard]] const std::vector<double>& lines(int axis) const { return result_.grid.lines(axis); }
 
-  void ask(int axis, int line, const Move& move) {
-    auto& known = moves_[axis][line];
-    if (known && std::abs(known->to - move.to) > same * size_)
-      reject_crack(
-          scene_, move.crack,
-          fmt::format("its tip at {} and that of crack {} at {} are both near to the cell line {} = {:g}",
-                      text(move.tip), known->crack + 1, text(known->tip), axis == 0 ? "x" : "y", lines(axis)[line]),
-          "a cell line through each tip instead");
-    known = move;
+  /// Moves a line, or makes the elements around the tip so small that it is not too near to them.
+  /// @param off Distance from the tip to what the line passes there.
+  void move_or_refine(int axis, int line, double to, double off, TipPlace& tip) {
+    if (off < same * size_)
+      is_fixed_[axis][line] = true;
+    else if (can_move(axis, line, to))
+      move(axis, line, to, tip.at);
+    else
+      tip.size = off / near;
   }
 
   /// Moves a side of a hole's cell so that its corner is on the ray of a slanted crack that passes it closely.
@@ -131,54 +134,54 @@ class Lines {
     const auto& hole = scene_.cracks[crack].hole;
     const auto cell = hole ? std::ranges::find(holes, *hole, &HoleCell::hole) : holes.end();
     if (cell == holes.end() || tips_[crack].empty()) return;
-    const TipPlace& tip = tips_[crack].front();
+    TipPlace& tip = tips_[crack].front();
     const Point ray = tip.at - cell->center;
     for (const int right : {0, 1})
       for (const int above : {0, 1}) {
         const int column = cell->index[0] + right, row = cell->index[1] + above;
-        const Point corner = Point(result_.grid.x[column], result_.grid.y[row]) - cell->center;
-        const double off = std::abs(corner.x() * ray.y() - corner.y() * ray.x()) / corner.norm();
-        if (corner.dot(ray) < 0 || off > near * tip.size || moves_[0][column] || moves_[1][row]) continue;
-        const bool along_x =
-            std::abs(corner.x() * ray.y()) < std::abs(corner.y() * ray.x());  // the corner moves inwards
-        const bool x_is_border = column == 0 || column + 1 == count_of(lines(0));
-        const bool y_is_border = row == 0 || row + 1 == count_of(lines(1));
-        if (x_is_border && y_is_border) continue;
-        if (y_is_border || (along_x && !x_is_border))
-          ask(0, column, {cell->center.x() + corner.y() * ray.x() / ray.y(), crack, tip.at});
+        const Point corner = Point(lines(0)[column], lines(1)[row]) - cell->center;
+        const double off = std::abs(cross(corner, ray)) / corner.norm();
+        if (corner.dot(ray) < 0 || off > near * tip.size) continue;
+        const double x = cell->center.x() + corner.y() * ray.x() / ray.y();
+        const double y = cell->center.y() + corner.x() * ray.y() / ray.x();
+        const bool is_flat = std::abs(corner.x() * ray.y()) < std::abs(corner.y() * ray.x());
+        // The corner moves inwards if it may.
+        if (can_move(0, column, x) && (is_flat || !can_move(1, row, y)))
+          move_or_refine(0, column, x, off, tip);
         else
-          ask(1, row, {cell->center.y() + corner.x() * ray.y() / ray.x(), crack, tip.at});
+          move_or_refine(1, row, y, off, tip);
       }
   }
 
-  void move(int axis, int line, const Move& move) {
-    const double from = lines(axis)[line];
-    if (std::abs(move.to - from) < same * size_) return;
-    const auto refuse = [&](const std::string& why) {
-      reject_crack(scene_, move.crack,
-                   fmt::format("its tip at {} is near to the cell line {} = {:g}, which cannot be moved through it: {}",
-                               text(move.tip), axis == 0 ? "x" : "y", from, why),
-                   "a cell line through the tip, or another length");
-    };
-    auto& grid = result_.grid;
+  /// True if a line is free to move: no border, no step of the sheet, not near another line, and no hole in its way.
+  [[nodiscard]] bool can_move(int axis, int line, double to) const {
+    const auto& at = lines(axis);
+    if (is_fixed_[axis][line] || line == 0 || line + 1 == count_of(at)) return false;
     const auto changes = [&](const auto& values) {
       return axis == 0 ? values.col(line - 1) != values.col(line) : values.row(line - 1) != values.row(line);
     };
-    if (changes(grid.thickness) || changes(grid.material)) refuse("the thickness or the material changes there");
-    const double low = std::min(from, move.to), high = std::max(from, move.to);
-    for (const Hole& hole : scene_.holes)
-      if (hole.center[axis] + hole.radius > low && hole.center[axis] - hole.radius < high)
-        refuse(fmt::format("hole \"{}\" is in its way", hole.id));
-    (axis == 0 ? grid.x : grid.y)[line] = move.to;
+    if (changes(result_.grid.thickness) || changes(result_.grid.material)) return false;
+    const double least_gap = std::abs(to - at[line]);  // else two lines could end at one place
+    if (to - at[line - 1] < least_gap || at[line + 1] - to < least_gap) return false;
+    const double low = std::min(at[line], to), high = std::max(at[line], to);
+    return std::ranges::none_of(scene_.holes, [&](const Hole& hole) {
+      return hole.center[axis] + hole.radius > low && hole.center[axis] - hole.radius < high;
+    });
+  }
+
+  void move(int axis, int line, double to, const Point& tip) {
+    double& at = (axis == 0 ? result_.grid.x : result_.grid.y)[line];
     result_.moves.push_back(
-        fmt::format("{} = {:g} to {:g}, for the tip at {}", axis == 0 ? "x" : "y", from, move.to, text(move.tip)));
+        fmt::format("{} = {:g} to {:g}, for the tip at {}", axis == 0 ? "x" : "y", at, to, text(tip)));
+    at = to;
+    is_fixed_[axis][line] = true;
   }
 
   const PlateScene& scene_;
-  const std::vector<std::vector<TipPlace>>& tips_;
+  std::vector<std::vector<TipPlace>>& tips_;
   double size_;
   MovedGrid result_;
-  std::array<std::vector<std::optional<Move>>, 2> moves_;  ///< of each line of both axes
+  std::array<std::vector<bool>, 2> is_fixed_;  ///< lines of both axes that have been moved or must stay
 };
 
 }  // namespace
@@ -202,7 +205,7 @@ std::vector<std::vector<TipPlace>> place_tips(const PlateScene& scene, const Gri
 }
 
 MovedGrid lines_through_tips(const PlateScene& scene, const GridGeometry& grid,
-                             const std::vector<std::vector<TipPlace>>& tips) {
+                             std::vector<std::vector<TipPlace>>& tips) {
   return Lines(scene, grid, tips).run();
 }
 

@@ -96,20 +96,24 @@ std::vector<double> merged(const std::optional<NeededNodes>& before, const std::
   return nodes;
 }
 
-/// Fixed nodes of several sides, ascending; those that two holes or cracks put on nearly one place, once.
-std::vector<double> all_of(const std::vector<std::vector<double>>& fixed, int first, int last) {
-  std::vector<double> nodes;
-  for (int side = first; side <= last; ++side) nodes.insert(nodes.end(), fixed[side].begin(), fixed[side].end());
+/// The nodes that cracks need on several sides, ascending.
+std::vector<double> all_of(const std::vector<std::vector<CrackNode>>& of_cracks, int first, int last) {
+  std::vector<CrackNode> wanted;
+  double size = 0;
+  for (int side = first; side <= last; ++side)
+    for (const CrackNode& node : of_cracks[side]) {
+      wanted.push_back(node);
+      size = std::max(size, std::abs(node.at));
+    }
+  auto nodes = thinned(std::move(wanted), size);
   std::ranges::sort(nodes);
-  const double same = nodes.empty() ? 0 : 1e-9 * std::max(std::abs(nodes.front()), std::abs(nodes.back()));
-  nodes.erase(std::unique(nodes.begin(), nodes.end(), [&](double a, double b) { return b - a <= same; }), nodes.end());
   return nodes;
 }
 
 /// Nodes on the sides between the cells of a strip: the same on all sides of a run of cells without a hole.
 /// @param strip What the hole of each cell needs, empty without a hole.
 std::vector<std::vector<double>> strip_nodes(const std::vector<std::optional<NeededNodes>>& strip,
-                                             const std::vector<std::vector<double>>& fixed) {
+                                             const std::vector<std::vector<CrackNode>>& of_cracks) {
   const int n = count_of(strip);
   std::vector<std::vector<double>> nodes(n + 1);
   for (int begin = 0; begin <= n;) {
@@ -117,9 +121,9 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<std::optional<Nee
     while (end < n && !strip[end]) ++end;
     const auto before = begin > 0 ? strip[begin - 1] : std::nullopt;
     const auto after = end < n ? strip[end] : std::nullopt;
-    const auto of_cracks = all_of(fixed, begin, end);
-    auto all = merged(before, after, of_cracks);
-    all.insert(all.end(), of_cracks.begin(), of_cracks.end());
+    const auto fixed = all_of(of_cracks, begin, end);
+    auto all = merged(before, after, fixed);
+    all.insert(all.end(), fixed.begin(), fixed.end());
     std::ranges::sort(all);
     std::fill(nodes.begin() + begin, nodes.begin() + end + 1, all);
     begin = end + 1;
@@ -150,20 +154,16 @@ std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometr
   return cells;
 }
 
-SideNodes::SideNodes(const GridGeometry& grid)
-    : on{std::vector(grid.y.size() - 1, std::vector<std::vector<double>>(grid.x.size())),
-         std::vector(grid.x.size() - 1, std::vector<std::vector<double>>(grid.y.size()))} {}
-
 const std::vector<double>& SideNodes::of(const Cell& cell, CellSide side) const {
   const int axis = side == left || side == right ? 0 : 1, line = side == right || side == top ? 1 : 0;
   return on[axis][cell.index[1 - axis]][cell.index[axis] + line];
 }
 
 SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
-                      const SideNodes& fixed) {
+                      const OfSides<std::vector<CrackNode>>& of_cracks) {
   SideNodes nodes;
   for (const int axis : {0, 1}) {  // sides across it; its strips run along it
-    const int n_strips = count_of(fixed.on[axis]), along = 1 - axis;
+    const int n_strips = count_of(of_cracks[axis]), along = 1 - axis;
     std::vector strips(n_strips, std::vector<std::optional<NeededNodes>>(grid.lines(axis).size() - 1));
     for (const auto& cell : holes) {
       const auto& cuts = cell.cuts;
@@ -175,9 +175,20 @@ SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid, const s
           NeededNodes{needed(cell.center[axis] - cell.low[axis]), needed(cell.high[axis] - cell.center[axis]),
                       scene.holes[cell.hole].radius};
     }
-    for (int i = 0; i < n_strips; ++i) nodes.on[axis].push_back(strip_nodes(strips[i], fixed.on[axis][i]));
+    for (int i = 0; i < n_strips; ++i) nodes.on[axis].push_back(strip_nodes(strips[i], of_cracks[axis][i]));
   }
   return nodes;
+}
+
+std::vector<double> thinned(std::vector<CrackNode> wanted, double size) {
+  std::ranges::stable_sort(wanted, {}, &CrackNode::step);
+  std::vector<double> kept;
+  for (const CrackNode& node : wanted) {
+    const double clear = std::max(0.3 * node.step, 1e-9 * size);
+    if (std::ranges::none_of(kept, [&](double other) { return std::abs(other - node.at) <= clear; }))
+      kept.push_back(node.at);
+  }
+  return kept;
 }
 
 }  // namespace fastjoint::stage1

@@ -31,14 +31,21 @@ struct HoleCell : Cell {
 /// cell.
 [[nodiscard]] std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid);
 
-/// Nodes between the ends of cell sides: coordinates along each side, x on bottom and top, else y.
-struct SideNodes {
-  /// [0][row][line of x] on left and right sides, [1][column][line of y] on bottom and top
-  std::array<std::vector<std::vector<std::vector<double>>>, 2> on;
+/// Something for each side of the cells of a grid: [0][row][line of x] for left and right sides, [1][column][line of y]
+/// for bottom and top.
+template <typename Value>
+using OfSides = std::array<std::vector<std::vector<Value>>, 2>;
 
-  SideNodes() = default;
-  /// No nodes on any side of the grid.
-  explicit SideNodes(const GridGeometry& grid);
+/// A node that cracks need on a side of a cell.
+struct CrackNode {
+  double at;    ///< coordinate along the side, x on bottom and top, else y
+  double step;  ///< size of the elements there, length; 0 for a node on the line of a crack or its tip, which must be there
+};
+
+/// Nodes between the ends of cell sides: coordinates along each side, ascending.
+struct SideNodes {
+  OfSides<std::vector<double>> on;
+
   [[nodiscard]] const std::vector<double>& of(const Cell& cell, CellSide side) const;
 };
 
@@ -48,8 +55,13 @@ struct SideNodes {
 /// sectors in every quarter, and another where such a sector is wider than 60 degrees, as next to a near edge: wide
 /// sectors resolve few waves. Any other node on its outline adds a ray to the fan. A cell without a hole is cut by
 /// straight lines, so a node continues to the opposite side, and so on up to the next hole or the plate's edge.
-/// Nodes that cracks need, `fixed`, take the place of those of holes close to them. The nodes of a side are ascending.
+/// Nodes that cracks need take the place of those of holes close to them.
 [[nodiscard]] SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid,
-                                    const std::vector<HoleCell>& holes, const SideNodes& fixed);
+                                    const std::vector<HoleCell>& holes,
+                                    const OfSides<std::vector<CrackNode>>& of_cracks);
+
+/// Places of mesh lines, finest first, without those that are closer to one before than 0.3 of their own step.
+/// @param wanted Those with the step 0 stay, unless they are one place with another such to 1e-9 of `size`.
+[[nodiscard]] std::vector<double> thinned(std::vector<CrackNode> wanted, double size);
 
 }  // namespace fastjoint::stage1

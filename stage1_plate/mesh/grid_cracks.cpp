@@ -18,16 +18,24 @@ using Point = Eigen::Vector2d;
 /// Ratio of the sizes of neighbouring elements away from a tip.
 constexpr double growth = 3.5;
 
+/// Lines are left out that are nearer to another than this share of the step to the line before.
+constexpr double sliver = 0.3;
+
 class Planner {
  public:
   Planner(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes)
       : scene_(scene), grid_(grid), holes_(holes), margin_(same * grid.size()) {
     result_.tips.resize(holes.size());
-    result_.nodes = SideNodes(grid);
+    result_.nodes = {std::vector(grid.y.size() - 1, std::vector<std::vector<CrackNode>>(grid.x.size())),
+                     std::vector(grid.x.size() - 1, std::vector<std::vector<CrackNode>>(grid.y.size()))};
   }
 
   GridCracks run(const std::vector<std::vector<TipPlace>>& tips) {
     for (crack_ = 0; crack_ < count_of(scene_.cracks); ++crack_) plan(scene_.cracks[crack_], tips[crack_]);
+    for (int i = 0; i < count_of(holes_); ++i) {
+      refine(result_.tips[i]);
+      for (const CellTip& tip : result_.tips[i]) add_rays_beside(holes_[i].hole, tip);
+    }
     return std::move(result_);
   }
 
@@ -48,7 +56,9 @@ class Planner {
   }
 
   /// Adds a node to a side of a cell on a cell line across an axis.
-  void add_node(int axis, int strip, int line, double at) { result_.nodes.on[axis][strip][line].push_back(at); }
+  void add_node(int axis, int strip, int line, double at, double step = 0) {
+    result_.nodes[axis][strip][line].push_back({at, step});
+  }
 
   /// Index of the hole cell at (column, row); the number of these if it has no hole.
   [[nodiscard]] int hole_cell(int column, int row) const {
@@ -108,46 +118,55 @@ class Planner {
   void add_tip(const Point& tip, double size) {
     for (int i = 0; i < count_of(holes_); ++i) {
       const HoleCell& cell = holes_[i];
-      if (!is_in(cell, tip, margin_)) continue;
+      if (!is_in(cell, tip, -margin_)) continue;
       const Point ray = tip - cell.center;
-      const double angle = std::atan2(ray.y(), ray.x());
-      for (const CellTip& other : result_.tips[i])
-        if (std::abs(rim::wrapped(other.angle - angle)) < rim::same_angle)
-          fail(fmt::format("two tips in the cell of hole \"{}\" are on one ray", scene_.holes[cell.hole].id),
-               "one tip on each ray of a cell; draw a cell line between them");
-      result_.tips[i].push_back({angle, ray.norm(), size});
-      for (double offset = size / ray.norm(), step = offset; offset < 0.7; step *= growth, offset += step)
-        for (const double sign : {-1.0, 1.0}) add_ray(cell.hole, unit(angle + sign * offset), size * offset);
-      return;
+      // Wide sectors next to a tip fold: the circle inside bulges beyond the diagonal from the tip.
+      result_.tips[i].push_back({std::atan2(ray.y(), ray.x()), ray.norm(), std::min(size, sliver * ray.norm())});
+      if (is_in(cell, tip, margin_)) return;
     }
     for (const int axis : {0, 1})
       for (const double sign : {-1.0, 0.0, 1.0})
         for (double offset = sign == 0 ? 0 : size, step = offset; offset <= 20 * size; step *= growth, offset += step) {
-          add_tip_line(axis, tip[axis] + sign * offset, tip[1 - axis], 0.3 * step);
+          add_tip_line(axis, tip[axis] + sign * offset, tip[1 - axis], sign == 0 ? 0 : step);
           if (sign == 0) break;
         }
+  }
+
+  /// Makes elements around tips of a cell as small as the lines of the other tips ask: the gap between them, or the size
+  /// at the other tip where these are so near that one line goes through both.
+  static void refine(std::vector<CellTip>& tips) {
+    for (CellTip& tip : tips)
+      for (CellTip& other : tips) {
+        const double gap = std::abs(tip.radius - other.radius), least = std::min(tip.size, other.size);
+        for (CellTip* each : {&tip, &other}) each->size = std::min(each->size, gap > sliver * least ? gap : least);
+      }
+  }
+
+  void add_rays_beside(int hole, const CellTip& tip) {
+    for (double offset = tip.size / tip.radius, step = offset; offset < 0.7; step *= growth, offset += step)
+      for (const double sign : {-1.0, 1.0}) add_ray(hole, unit(tip.angle + sign * offset), step);
   }
 
   static Point unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
   /// A mesh line across an axis at a coordinate, through the cells without a hole at the tip's place across.
-  /// @param clear Distance from cell lines within which it is left out.
-  void add_tip_line(int axis, double at, double across, double clear) {
+  /// @param step Size of the elements there; within 0.3 of it of a cell line it is left out.
+  void add_tip_line(int axis, double at, double across, double step) {
     const auto &lines = grid_.lines(axis), &others = grid_.lines(1 - axis);
     const int strip = interval(lines, at);
-    if (strip < 0 || at - lines[strip] < clear || lines[strip + 1] - at < clear) return;
+    if (strip < 0 || std::min(at - lines[strip], lines[strip + 1] - at) < 0.3 * step) return;
     for (int i = 0; i + 1 < count_of(others); ++i) {
       if (across < others[i] - margin_ || across > others[i + 1] + margin_) continue;
       const int column = axis == 0 ? strip : i, row = axis == 0 ? i : strip;
       if (hole_cell(column, row) < count_of(holes_)) continue;
-      add_node(1 - axis, strip, i, at);
-      add_node(1 - axis, strip, i + 1, at);
+      add_node(1 - axis, strip, i, at, step);
+      add_node(1 - axis, strip, i + 1, at, step);
     }
   }
 
   /// A ray from a hole's centre to the outline of its cell.
-  /// @param clear Distance from corners within which it is left out, at the outline.
-  void add_ray(int hole, const Point& direction, double clear = 0) {
+  /// @param turn Angle to the ray before, 0 for the ray of a tip. Near corners, as seen from there, it is left out.
+  void add_ray(int hole, const Point& direction, double turn = 0) {
     const HoleCell& cell = *std::ranges::find(holes_, hole, &HoleCell::hole);
     double reach = std::numeric_limits<double>::infinity();
     int axis = 0;
@@ -160,9 +179,9 @@ class Planner {
     const CellSide side = axis == 0 ? (direction.x() > 0 ? right : left) : (direction.y() > 0 ? top : bottom);
     if (cell.cuts[side]) return;
     const double at = cell.center[1 - axis] + reach * direction[1 - axis];
-    const double from_corner = std::min(at - cell.low[1 - axis], cell.high[1 - axis] - at);
-    if (from_corner < std::max(clear * 0.3, margin_)) return;
-    add_node(axis, cell.index[1 - axis], cell.index[axis] + (direction[axis] > 0 ? 1 : 0), at);
+    const double from_corner = std::min(at - cell.low[1 - axis], cell.high[1 - axis] - at), step = turn * reach;
+    if (from_corner < std::max(0.3 * step, margin_)) return;
+    add_node(axis, cell.index[1 - axis], cell.index[axis] + (direction[axis] > 0 ? 1 : 0), at, step);
   }
 
   const PlateScene& scene_;
@@ -173,17 +192,111 @@ class Planner {
   GridCracks result_;
 };
 
-/// Value at an angle of a function given at the tips, linear between them.
-double between(const std::vector<CellTip>& tips, const std::vector<double>& values, double angle) {
+/// The rays from a hole's centre to the outline of its cell, with a measure s of places on them.
+///
+/// From the rim (s = 0) to a last circle (s = 1) it goes as the radius, and from there to the outline (s = 2) as the
+/// distance on the ray. Lines of constant s are circles, then go over to the outline, and do not cross: edges between
+/// any of them are those of convex elements.
+class CellRays {
+ public:
+  CellRays(double radius, const Point& center, const std::vector<Point>& outline, double nearest)
+      : radius_(radius),
+        last_circle_(radius + 0.9 * (nearest - radius)),
+        angle_(std::ssize(outline)),
+        reach_(std::ssize(outline)) {
+    for (Eigen::Index i = 0; i < angle_.size(); ++i) {
+      const Point ray = outline[i] - center;
+      angle_[i] = std::atan2(ray.y(), ray.x());
+      reach_[i] = ray.norm();
+    }
+  }
+
+  [[nodiscard]] const Eigen::VectorXd& angles() const { return angle_; }
+
+  [[nodiscard]] Eigen::Index at_angle(double angle) const {
+    Eigen::Index nearest = 0;
+    (angle_.array() - angle).unaryExpr([](double x) { return std::abs(rim::wrapped(x)); }).minCoeff(&nearest);
+    return nearest;
+  }
+
+  [[nodiscard]] double s_at(Eigen::Index ray, double radius) const {
+    return radius <= last_circle_ ? (radius - radius_) / (last_circle_ - radius_)
+                                  : 1 + (radius - last_circle_) / (reach_[ray] - last_circle_);
+  }
+
+  /// @param s A value for each ray.
+  [[nodiscard]] RingLine line(const Eigen::VectorXd& s) const {
+    const Eigen::Index n = s.size();
+    RingLine line{Eigen::VectorXd(n), Eigen::VectorXd::Ones(n - 1)};
+    for (Eigen::Index i = 0; i < n; ++i)
+      line.radii[i] = s[i] <= 1 ? radius_ + s[i] * (last_circle_ - radius_)
+                                : last_circle_ + (s[i] - 1) * (reach_[i] - last_circle_);
+    for (Eigen::Index i = 0; i + 1 < n; ++i)
+      if (const double mean = (s[i] + s[i + 1]) / 2; mean > 1)
+        line.roundness[i] = (2 - mean) * last_circle_ * 2 / (line.radii[i] + line.radii[i + 1]);
+    return line;
+  }
+
+ private:
+  double radius_, last_circle_;
+  Eigen::VectorXd angle_, reach_;  ///< of each ray; the distance of the outline
+};
+
+/// Value at an angle of a function given at several ones, linear between them.
+double between(const std::vector<double>& angles, const std::vector<double>& values, double angle) {
   int before = 0, after = 0;
   double to_before = rim::full_turn, to_after = rim::full_turn;
-  for (int i = 0; i < count_of(tips); ++i) {
-    const double ahead = rim::wrapped(tips[i].angle - angle, 0), behind = rim::wrapped(angle - tips[i].angle, 0);
+  for (int i = 0; i < count_of(angles); ++i) {
+    const double ahead = rim::wrapped(angles[i] - angle, 0), behind = rim::wrapped(angle - angles[i], 0);
     if (ahead < to_after) to_after = ahead, after = i;
     if (behind < to_before) to_before = behind, before = i;
   }
   const double sum = to_before + to_after;
   return sum < rim::same_angle ? values[before] : (values[before] * to_after + values[after] * to_before) / sum;
+}
+
+/// From there on a place counts as on the outline.
+constexpr double on_outline = 2 - 1e-6;
+
+/// A line around a hole that the mesh should have.
+struct WantedLine {
+  Eigen::VectorXd s;  ///< on each ray
+  double step;        ///< to the line before, in s; 0 for a line through a tip
+  double clear;       ///< distance to leave to it, in s
+};
+
+/// Lines around a hole through its tips: one for those so near to each other in s that lines of their own would be
+/// slivers. Each is followed by lines beside it whose distances grow.
+std::vector<WantedLine> wanted_lines(std::vector<CellTip> tips, const CellRays& rays) {
+  const auto s_of = [&](const CellTip& tip, double offset = 0) {
+    return rays.s_at(rays.at_angle(tip.angle), tip.radius + offset);
+  };
+  std::ranges::sort(tips, {}, [&](const CellTip& tip) { return s_of(tip); });
+  std::vector<WantedLine> wanted;
+  for (std::size_t first = 0, end = 0; first < tips.size(); first = end) {
+    std::vector<double> angles, places;
+    double near = 2;
+    for (; end < tips.size(); ++end) {
+      const double s = s_of(tips[end]), size = tips[end].size;
+      near = std::min({near, sliver * (s - s_of(tips[end], -size)), sliver * (s_of(tips[end], size) - s)});
+      if (end > first && (s - places.back() > near || s > on_outline)) break;
+      angles.push_back(tips[end].angle);
+      places.push_back(s);
+    }
+    const Eigen::VectorXd line =
+        rays.angles().unaryExpr([&](double angle) { return between(angles, places, angle); });
+    const CellTip& tip = *std::ranges::min_element(tips.begin() + first, tips.begin() + end, {}, &CellTip::size);
+    wanted.push_back({line, 0, near});
+    for (const double sign : {-1.0, 1.0}) {
+      double before = s_of(tip);
+      for (double width = tip.size, offset = width; before > 0 && before < 2; width *= growth, offset += width) {
+        const double s = s_of(tip, sign * offset);
+        wanted.push_back({line.array() + (s - s_of(tip)), std::abs(s - before), 0});
+        before = s;
+      }
+    }
+  }
+  return wanted;
 }
 
 }  // namespace
@@ -193,37 +306,26 @@ GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid, const 
   return Planner(scene, grid, holes).run(tips);
 }
 
-std::vector<Eigen::VectorXd> tip_layers(const std::vector<CellTip>& tips, double radius, const Point& center,
-                                        const std::vector<Point>& outline, double nearest) {
-  const double cap = radius + 0.9 * (nearest - radius);  // circles fit up to there
-  const bool are_circles = std::ranges::all_of(tips, [&](const CellTip& tip) { return tip.radius < cap; });
-  const Eigen::Index n = std::ssize(outline);
-  Eigen::VectorXd angle(n), reach(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Point ray = outline[i] - center;
-    angle[i] = std::atan2(ray.y(), ray.x());
-    reach[i] = (are_circles ? cap : ray.norm()) - radius;
+std::vector<RingLine> tip_layers(const std::vector<CellTip>& tips, double radius, const Point& center,
+                                 const std::vector<Point>& outline, double nearest) {
+  const CellRays rays(radius, center, outline, nearest);
+  auto wanted = wanted_lines(tips, rays);
+  std::ranges::stable_sort(wanted, {}, &WantedLine::step);
+  std::vector<WantedLine> kept{{Eigen::VectorXd::Zero(std::ssize(outline)), 0, 0}};
+  for (const auto& line : wanted) {
+    const double clear = sliver * line.step;
+    const auto is_apart = [&](const WantedLine& other) {
+      const Eigen::VectorXd gap = line.s - other.s;
+      const double least = line.step == 0 ? 0 : std::max(clear, other.clear);
+      return gap.minCoeff() > least || -gap.maxCoeff() > least;
+    };
+    if (line.s.minCoeff() > 0 && line.s.maxCoeff() < on_outline - clear && std::ranges::all_of(kept, is_apart))
+      kept.push_back(line);
   }
-  // Place of each tip and size of its elements as fractions of the way from the rim to the reach of its ray.
-  std::vector<double> place;
-  double size = 1;
-  for (const CellTip& tip : tips) {
-    Eigen::Index on = 0;
-    (angle.array() - tip.angle).unaryExpr([](double x) { return std::abs(rim::wrapped(x)); }).minCoeff(&on);
-    place.push_back((tip.radius - radius) / reach[on]);
-    size = std::min(size, tip.size / (tip.radius - radius));
-  }
-  Eigen::VectorXd at(n);
-  for (Eigen::Index i = 0; i < n; ++i) at[i] = between(tips, place, angle[i]);
-  std::vector<double> levels{1};  // multiples of the place of the tips
-  for (double step = size, level = 1 - step; level > 0.3 * step; step *= growth, level -= step)
-    levels.insert(levels.begin(), level);
-  for (double step = size, level = 1 + step; level * at.maxCoeff() < 1 - 0.3 * step * at.maxCoeff();
-       step *= growth, level += step)
-    levels.push_back(level);
-  std::vector<Eigen::VectorXd> layers{Eigen::VectorXd::Constant(n, radius)};
-  for (const double level : levels) layers.emplace_back(radius + level * at.array() * reach.array());
-  return layers;
+  std::ranges::sort(kept, {}, [](const WantedLine& line) { return line.s[0]; });
+  std::vector<RingLine> lines;
+  for (const auto& line : kept) lines.push_back(rays.line(line.s));
+  return lines;
 }
 
 std::vector<CrackPath> crack_paths(const PlateScene& scene, const PlateMesh& plate) {

@@ -33,10 +33,10 @@ struct MovedGrid {
 /// corner of a hole's cell lies on the ray of its crack, since slivers between the two would spoil the stress intensity
 /// factors.
 ///
-/// Throws InputError where a line cannot move: it is the border, the thickness or the material changes there, a hole is
-/// in its way, or it is near two tips.
+/// Where a line cannot move (it is the border, the thickness or the material changes there, a hole or another tip is in
+/// its way), the elements around the tip become smaller instead. Throws InputError if they would become too small.
 [[nodiscard]] MovedGrid lines_through_tips(const PlateScene& scene, const GridGeometry& grid,
-                                           const std::vector<std::vector<TipPlace>>& tips);
+                                           std::vector<std::vector<TipPlace>>& tips);
 
 /// Throws InputError for the place of a crack in the file.
 [[noreturn]] void reject_crack(const PlateScene& scene, int crack, const std::string& found,
@@ -51,7 +51,7 @@ struct CellTip {
 
 /// What cracks ask of the mesh of a grid.
 struct GridCracks {
-  SideNodes nodes;                         ///< where they and their tips need mesh lines
+  OfSides<std::vector<CrackNode>> nodes;   ///< where they and their tips need mesh lines
   std::vector<std::vector<CellTip>> tips;  ///< inside the cell of each hole, in the order of the cells
 };
 
@@ -61,11 +61,17 @@ struct GridCracks {
                                      const std::vector<HoleCell>& holes,
                                      const std::vector<std::vector<TipPlace>>& tips);
 
-/// Radial coordinates of the layers of elements in the cell of a hole with tips: for each layer one for each ray.
+/// A line of edges of elements around a hole.
+struct RingLine {
+  Eigen::VectorXd radii;      ///< distance from the centre on each ray, length
+  Eigen::VectorXd roundness;  ///< from each ray to the next: 1 for an arc about the centre, 0 for a straight edge
+};
+
+/// The lines in the cell of a hole with tips, outwards from the rim; the outline is not among them.
 /// @param outline Points of the cell's outline, one on each ray. @param nearest Distance to the nearest side.
-[[nodiscard]] std::vector<Eigen::VectorXd> tip_layers(const std::vector<CellTip>& tips, double radius,
-                                                      const Eigen::Vector2d& center,
-                                                      const std::vector<Eigen::Vector2d>& outline, double nearest);
+[[nodiscard]] std::vector<RingLine> tip_layers(const std::vector<CellTip>& tips, double radius,
+                                               const Eigen::Vector2d& center,
+                                               const std::vector<Eigen::Vector2d>& outline, double nearest);
 
 /// The edges of the mesh along each crack.
 [[nodiscard]] std::vector<CrackPath> crack_paths(const PlateScene& scene, const PlateMesh& plate);

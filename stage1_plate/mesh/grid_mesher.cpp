@@ -112,34 +112,42 @@ double nearest_side(const HoleCell& hole) {
   return nearest;
 }
 
-/// Radii of the hole and of the extra rings, in geometric progression up to the nearest side of the cell, for each ray.
-std::vector<Eigen::VectorXd> ring_radii(double nearest, double radius, int n_rings, Eigen::Index n_rays) {
-  std::vector<Eigen::VectorXd> radii;
-  for (int k = 0; k <= n_rings; ++k)
-    radii.push_back(Eigen::VectorXd::Constant(n_rays, radius * std::pow(nearest / radius, double(k) / (n_rings + 1))));
-  return radii;
+/// The hole's rim and its extra rings, in geometric progression up to the nearest side of the cell.
+std::vector<RingLine> ring_lines(double nearest, double radius, int n_rings, Eigen::Index n_rays) {
+  std::vector<RingLine> lines;
+  for (int k = 0; k <= n_rings; ++k) {
+    const double at = radius * std::pow(nearest / radius, double(k) / (n_rings + 1));
+    lines.push_back({Eigen::VectorXd::Constant(n_rays, at), Eigen::VectorXd::Ones(n_rays - 1)});
+  }
+  return lines;
 }
 
-/// Centre of an arc through two points of a ring, as near as can be to the ring's centre: on their bisector.
-Point arc_center(const Point& a, const Point& b, const Point& center, bool is_circle) {
-  if (is_circle) return center;
-  const Point chord = b - a, middle = (a + b) / 2;
-  return center + chord * ((middle - center).dot(chord) / chord.squaredNorm());
+/// Centre of the arc between two points around a hole whose rise over their chord is `roundness` times that of a circle
+/// about the hole's centre.
+Point arc_center(const Point& a, const Point& b, const Point& center, double roundness) {
+  const Point chord = b - a, from = a - center, to = b - center;
+  const double half_angle = std::acos(from.normalized().dot(to.normalized())) / 2;
+  const double rise = roundness * (from.norm() + to.norm()) / 2 * (1 - std::cos(half_angle));
+  const double radius = (chord.squaredNorm() / 4 + rise * rise) / (2 * rise);
+  return (a + b) / 2 + (rise - radius) * Point(chord.y(), -chord.x()).normalized();
 }
 
-/// Nodes of one ring, one on the ray to each point of the outline. A closed ring ends with its first node.
-/// @param radii One for each ray. @param is_round False if the ring follows the outline rather than the hole.
-std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center,
-                            const Eigen::VectorXd& radii, bool is_round) {
+/// Nodes of a line around a hole, one on the ray to each point of the outline. A closed line ends with its first node.
+std::vector<int> line_nodes(Builder& builder, const std::vector<Point>& points, const Point& center,
+                            const RingLine& line) {
   const bool closed = points.front() == points.back();
+  const auto& [radii, roundness] = line;
   std::vector<int> nodes;
   for (int i = 0; i < count_of(points); ++i)
     nodes.push_back(closed && i + 1 == count_of(points)
                         ? nodes.front()
                         : builder.own_node(center + radii[i] * (points[i] - center).normalized()));
-  for (int i = 0; i + 1 < count_of(nodes) && is_round; ++i)
+  for (int i = 0; i + 1 < count_of(nodes); ++i) {
+    const bool is_circle = roundness[i] == 1 && radii[i] == radii[i + 1];
     builder.arc(nodes[i], nodes[i + 1],
-                arc_center(builder.at(nodes[i]), builder.at(nodes[i + 1]), center, radii[i] == radii[i + 1]));
+                is_circle ? center
+                          : arc_center(builder.at(nodes[i]), builder.at(nodes[i + 1]), center, roundness[i]));
+  }
   return nodes;
 }
 
@@ -147,11 +155,10 @@ void mesh_hole_cell(Builder& builder, const SideNodes& nodes, const HoleCell& ce
                     const std::vector<CellTip>& tips) {
   const auto points = outline(nodes, cell);
   const double nearest = nearest_side(cell);
-  const auto radii = tips.empty() ? ring_radii(nearest, hole.radius, hole.rings, std::ssize(points))
+  const auto lines = tips.empty() ? ring_lines(nearest, hole.radius, hole.rings, std::ssize(points))
                                   : tip_layers(tips, hole.radius, cell.center, points, nearest);
   std::vector<std::vector<int>> layers;
-  for (const auto& each : radii)
-    layers.push_back(ring_nodes(builder, points, cell.center, each, each.maxCoeff() < nearest));
+  for (const auto& line : lines) layers.push_back(line_nodes(builder, points, cell.center, line));
   layers.emplace_back();
   for (const auto& point : points) layers.back().push_back(builder.shared_node(point));
   for (int k = 0; k + 1 < count_of(layers); ++k)
@@ -202,7 +209,7 @@ void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& pl
 }  // namespace
 
 PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& given) {
-  const auto tips = place_tips(scene, given);
+  auto tips = place_tips(scene, given);
   const auto [grid, moves] = lines_through_tips(scene, given, tips);
   const auto holes = find_hole_cells(scene, grid);
   const GridCracks cracks = plan_cracks(scene, grid, holes, tips);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/measure/time_contact on four fasteners, beside the same programs: time_contact_test.py BIN_FOLDER."""
+"""scripts/measure/time_contact on two fasteners, beside the same programs: time_contact_test.py BIN_FOLDER."""
 import os
 import subprocess
 import sys
@@ -23,7 +23,7 @@ def main(programs):
                                  capture_output=True, text=True).stdout
         assert page.read_text() == f"<!-- {NAME} -->\n{printed}<!-- /{NAME} -->\n"
     header, _, *rows = [cells(line) for line in printed.splitlines()]
-    assert [row[:2] for row in rows] == [["4", "0"], ["4", "0.15"]], printed
+    assert [row[:2] for row in rows] == [["2", "0"], ["2", "0.15"]], printed
     assert all(float(value) > 0 for row in rows for value in row[2:]), printed
     kept = (ROOT / "docs/performance.md").read_text().split(f"<!-- {NAME} -->\n")[1].splitlines()[0]
     assert cells(kept) == header, "docs/performance.md has other columns"
