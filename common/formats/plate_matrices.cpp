@@ -86,7 +86,8 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index
   const Eigen::Index s = a.section_hole.size();
   file("section/side", a.section_side, {s}, "1", "side of the hole that each section lies on", h5::one_of(side_names));
   file("section/gross_area", a.gross_area, {s}, area, "area of each section", h5::positive);
-  file("section/net_area", a.net_area, {s}, area, "area of each section less the hole's projected area", h5::positive);
+  file("section/net_area", a.net_area, {s}, area,
+       "area of each section less the projected areas of the hole and of cracks in its cell", h5::not_negative);
   file("section/force", a.section_force, {l, s, n_cases}, per_case,
        "normal force over the section in each unit case, tension positive");
   file("section/shear", a.section_shear, {l, s, n_cases}, per_case,

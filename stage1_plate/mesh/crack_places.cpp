@@ -106,8 +106,8 @@ class Lines {
       for (const TipPlace& tip : tips_[crack])
         if (tip.size < least_size * size_)
           reject_crack(scene_, crack,
-                       fmt::format("its tip at {} is {:.2g} from a cell line that cannot be moved through it", text(tip.at),
-                                   near * tip.size),
+                       fmt::format("its tip at {} is {:.2g} from a cell line that cannot be moved through it",
+                                   text(tip.at), near * tip.size),
                        "a cell line through the tip, or another length");
     return std::move(result_);
   }

@@ -39,7 +39,8 @@ using OfSides = std::array<std::vector<std::vector<Value>>, 2>;
 /// A node that cracks need on a side of a cell.
 struct CrackNode {
   double at;    ///< coordinate along the side, x on bottom and top, else y
-  double step;  ///< size of the elements there, length; 0 for a node on the line of a crack or its tip, which must be there
+  double step;  ///< size of the elements there, length; 0 for a node on the line of a crack or its tip, which must be
+                ///< there
 };
 
 /// Nodes between the ends of cell sides: coordinates along each side, ascending.

@@ -132,8 +132,8 @@ class Planner {
         }
   }
 
-  /// Makes elements around tips of a cell as small as the lines of the other tips ask: the gap between them, or the size
-  /// at the other tip where these are so near that one line goes through both.
+  /// Makes elements around tips of a cell as small as the lines of the other tips ask: the gap between them, or the
+  /// size at the other tip where these are so near that one line goes through both.
   static void refine(std::vector<CellTip>& tips) {
     for (CellTip& tip : tips)
       for (CellTip& other : tips) {
@@ -283,8 +283,7 @@ std::vector<WantedLine> wanted_lines(std::vector<CellTip> tips, const CellRays& 
       angles.push_back(tips[end].angle);
       places.push_back(s);
     }
-    const Eigen::VectorXd line =
-        rays.angles().unaryExpr([&](double angle) { return between(angles, places, angle); });
+    const Eigen::VectorXd line = rays.angles().unaryExpr([&](double angle) { return between(angles, places, angle); });
     const CellTip& tip = *std::ranges::min_element(tips.begin() + first, tips.begin() + end, {}, &CellTip::size);
     wanted.push_back({line, 0, near});
     for (const double sign : {-1.0, 1.0}) {

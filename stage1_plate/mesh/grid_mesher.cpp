@@ -145,8 +145,7 @@ std::vector<int> line_nodes(Builder& builder, const std::vector<Point>& points, 
   for (int i = 0; i + 1 < count_of(nodes); ++i) {
     const bool is_circle = roundness[i] == 1 && radii[i] == radii[i + 1];
     builder.arc(nodes[i], nodes[i + 1],
-                is_circle ? center
-                          : arc_center(builder.at(nodes[i]), builder.at(nodes[i + 1]), center, roundness[i]));
+                is_circle ? center : arc_center(builder.at(nodes[i]), builder.at(nodes[i + 1]), center, roundness[i]));
   }
   return nodes;
 }

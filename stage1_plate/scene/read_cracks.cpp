@@ -13,7 +13,7 @@ namespace {
 using input::Value;
 
 const std::string hole_prefix = "hole:";
-// The low and the high border of x, then of y: read_from_border counts on this order.
+// The low and the high border of x, then of y: read_cut and read_from_border count on this order.
 const std::vector<std::string> borders = {"left", "right", "bottom", "top"};
 
 /// Reads "hole:ID" as the hole's index.
@@ -43,17 +43,31 @@ Eigen::Vector2d direction_at(double angle) {
   return (nearest % 4 + 4) % 4 < 2 ? along : Eigen::Vector2d(-along);
 }
 
-void read_from_hole(const Value& value, const std::vector<Hole>& holes, Crack& crack) {
-  crack.hole = read_hole(value.at("from"), holes);
-  const Hole& hole = holes[*crack.hole];
+/// Reads a crack that cuts the sheet from a hole to another one or to an edge of the grid.
+void read_cut(const Value& to, const PlateScene& scene, const Hole& hole, Crack& crack) {
+  crack.tips = 0;
+  if (const int border = index_of(borders, to.text()); border < count_of(borders)) {
+    const int axis = border / 2;
+    const auto& lines = std::get<GridGeometry>(scene.geometry).lines(axis);
+    crack.from = crack.to = hole.center;
+    crack.to[axis] = border % 2 == 0 ? lines.front() : lines.back();
+    crack.from[axis] += std::copysign(hole.radius, crack.to[axis] - hole.center[axis]);
+    return;
+  }
+  if (!to.text().starts_with(hole_prefix)) to.not_allowed("\"hole:ID\", left, right, bottom or top");
+  const Hole& other = scene.holes[read_hole(to, scene.holes)];
+  if (&other == &hole) to.not_allowed("another hole than that of \"from\"");
+  const Eigen::Vector2d way = other.center - hole.center;
+  crack.from = hole.center + hole.radius * direction_at(std::atan2(way.y(), way.x()));
+  crack.to = other.center - other.radius * (other.center - crack.from).normalized();
+}
+
+void read_from_hole(const Value& value, const PlateScene& scene, Crack& crack) {
+  crack.hole = read_hole(value.at("from"), scene.holes);
+  const Hole& hole = scene.holes[*crack.hole];
   if (const auto to = value.find("to")) {
     value.only({"id", "from", "to"});
-    const Hole& other = holes[read_hole(*to, holes)];
-    if (&other == &hole) to->not_allowed("another hole than that of \"from\"");
-    const Eigen::Vector2d way = other.center - hole.center;
-    crack.from = hole.center + hole.radius * direction_at(std::atan2(way.y(), way.x()));
-    crack.to = other.center - other.radius * (other.center - crack.from).normalized();
-    crack.tips = 0;
+    read_cut(*to, scene, hole, crack);
     return;
   }
   value.only({"id", "from", "angle", "length"});
@@ -82,7 +96,7 @@ void read_grid_crack(const Value& value, const PlateScene& scene, Crack& crack) 
   if (from.is_array())
     read_between_points(value, crack);
   else if (from.text().starts_with(hole_prefix))
-    read_from_hole(value, scene.holes, crack);
+    read_from_hole(value, scene, crack);
   else
     read_from_border(value, std::get<GridGeometry>(scene.geometry), crack);
 }

@@ -6,6 +6,7 @@
 
 #include "common/count.hpp"
 #include "common/matrices/stiffness_error.hpp"
+#include "stage2_extract/matrices/net_section.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -42,14 +43,13 @@ void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& e
   const Eigen::Index s = plate.sections.size();
   a.gross_area.resize(s);
   a.net_area.resize(s);
+  const NetSections net(plate, edges);
   for (Eigen::Index i = 0; i < s; ++i) {
     const auto& section = plate.sections[i];
     a.section_hole.push_back(plate.hole_id[section.hole]);
     a.section_side.push_back(section.side);
     a.gross_area[i] = rim::section_area(plate.mesh, edges, section);
-    const auto& rim = plate.hole_rim[section.hole];
-    const auto direction = rim::unit_vector(rim::signed_axis_named(section.side));
-    a.net_area[i] = a.gross_area[i] - rim::bearing(plate.mesh, edges, rim, direction).area;
+    a.net_area[i] = net.area(section);
   }
 }
 

@@ -230,9 +230,14 @@ class Collector {
       if (plate.hole_of(plate.discs[i]) == hole) its.discs.emplace_back(i, plate.axis_of(plate.discs[i]));
     CheckedItem& item = all_.items.emplace_back(item_of(its, name));
     if (kind == CheckKind::peak) item.is_known = plate.has_peak(hole);
-    if (kind != CheckKind::tension || !sections.is_filled()) return;
+    if (kind != CheckKind::tension) return;
     item.is_known = false;
-    item.unknown = "it fills most of the strip between cell lines, whose net section says nothing of the sheet";
+    if (sections.is_open())
+      item.unknown = "cracks cut its net section through";
+    else if (sections.is_filled())
+      item.unknown = "it fills most of the strip between cell lines, whose net section says nothing of the sheet";
+    else
+      item.is_known = true;
   }
 
   /// What its check asks of a hole, with the formula.

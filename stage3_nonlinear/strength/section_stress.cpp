@@ -78,7 +78,7 @@ HoleSections::HoleSections(const formats::PlateStresses& a, Index rim, const for
   on_symmetry_ = area.minCoeff() < part * whole;
   constexpr double most = 0.5, nearly = 0.99;
   for (const int axis : {0, 1}) {
-    if (!border || net_area(axis) >= most * gross_area(axis)) continue;
+    if (!border || is_open(axis) || net_area(axis) >= most * gross_area(axis)) continue;
     double of_sheet = 0;
     for (const int sign : {1, -1}) {
       const double room =
@@ -175,9 +175,9 @@ MeanStress HoleSections::net(const SectionForces& forces, const Eigen::Vector2d&
   MeanStress stress(0, 0, shear(forces));
   double share = 1;  // of the gross area; the shear acts where it is smallest
   for (const int axis : {0, 1}) {
-    if (is_unknown(axis, T, scale)) stress[axis] = infinite;
+    if (is_unknown(axis, T, scale) || is_open(axis)) stress[axis] = infinite;
     const auto& [plus, minus] = at_[axis];
-    if (!plus && !minus) continue;
+    if ((!plus && !minus) || is_open(axis)) continue;
     if (is_filled_[axis]) {
       const bool carries = !(std::abs(over_gross[axis]) <= hardly * std::abs(over_gross[1 - axis]));
       stress[axis] = carries ? infinite : over_gross[axis];

@@ -53,18 +53,23 @@ class HoleSections {
   /// than what flows around the hole, and the stress over what is left of it is none of the sheet's.
   [[nodiscard]] bool is_filled() const { return is_filled_[0] || is_filled_[1]; }
 
+  /// True if cracks leave nothing of a section.
+  [[nodiscard]] bool is_open() const { return is_open(0) || is_open(1); }
+
   /// Stress that passes the fastener by: without what the fastener adds on the side where it bears.
   /// @param T     Force of the fastener on the sheet, friction included.
   /// @param scale Largest force on the plate: below 1e-3 of it, or of T, a component bears on neither side.
   [[nodiscard]] MeanStress bypass(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
   /// Stress of the more loaded section across each axis, by magnitude, fastener included.
   [[nodiscard]] MeanStress gross(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
-  /// The same of the net sections, of that in larger tension; infinite if the hole fills a strip that carries.
+  /// The same of the net sections, of that in larger tension; infinite if the hole fills a strip that carries, or cracks
+  /// have opened the section.
   [[nodiscard]] MeanStress net(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
 
  private:
   using Sides = std::array<std::optional<Eigen::Index>, 2>;  ///< on the side of + and of -
   [[nodiscard]] std::optional<Eigen::Index> smaller(int axis) const;
+  [[nodiscard]] bool is_open(int axis) const { return smaller(axis) && net_area(axis) == 0; }
   /// Area across a direction by those across x and y, of which one may be missing.
   [[nodiscard]] static double across(double x, double y, double direction);
   /// The force T along an axis without sections is not seen: there the stress is not known.
