@@ -6,14 +6,31 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
+
+/// What BLAS calls, in place of its own, for an argument that it does not take.
+///
+/// Eigen passes on products of matrices without rows, as those of sheets without fasteners have; BLAS refuses their
+/// leading dimension 0 and returns, which is right: there is nothing to compute. All else is said as BLAS says it.
+extern "C" void xerbla_(const char* name, const int* argument, std::size_t length) {
+  constexpr std::array<std::pair<std::string_view, int>, 6> leading_dimensions{
+      {{"DGEMV", 6}, {"DSYMV", 5}, {"DGEMM", 8}, {"DGEMM", 10}, {"DGEMM", 13}, {"DSYMM", 7}}};
+  const std::string_view called(name, length);
+  for (const auto& [known, at] : leading_dimensions)
+    if (called.starts_with(known) && *argument == at) return;
+  std::fprintf(stderr, " ** On entry to %.*s parameter number %d had an illegal value\n", int(length), name, *argument);
+}
 
 namespace fastjoint::linalg {
 namespace {

@@ -31,7 +31,7 @@ struct JointEquations {
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
   /// Number a of directions.
-  [[nodiscard]] Index n_directions() const { return n_plane_rows() / n_planes(); }
+  [[nodiscard]] Index n_directions() const { return n_planes() > 0 ? n_plane_rows() / n_planes() : 1; }
   /// Number n a of unknowns of the planes.
   [[nodiscard]] Index n_plane_rows() const { return n_unknowns() - system->n_moments(); }
   /// Number r of unknowns.

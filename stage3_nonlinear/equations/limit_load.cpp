@@ -24,7 +24,7 @@ std::optional<LimitLoad> limit_load(const JointEquations& equations, double sign
   const Index n = equations.n_planes(), a = equations.n_directions();
   VectorXd max_force(n);
   for (Index j = 0; j < n; ++j) max_force[j] = equations.contacts[j].law->max_force();
-  if (!max_force.allFinite()) return std::nullopt;
+  if (n == 0 || !max_force.allFinite()) return std::nullopt;
   const MatrixXd motions = free_motions(equations);
   const VectorXd work = motions.transpose() * equations.q_at(sign).head(n * a);
   constexpr double rounding = 1e-12;

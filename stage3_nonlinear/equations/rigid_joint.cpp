@@ -24,13 +24,10 @@ constexpr double singular = 1e-10;
 /// First unknown of a disc in the joint's list.
 Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset(hole.plate) + hole.disc; }
 
-/// Stiffness of the stiffest disc of a plate.
-double own_stiffness(const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); }
-
 /// Reference hole of a fastener: that in the stiffest plate, or the ground, which counts as the one after the last.
 Index reference(const JointModel& joint, const FastenerModel& fastener) {
   if (fastener.grounded) return std::ssize(fastener.holes);
-  const auto own = [&](const HoleModel& hole) { return own_stiffness(joint.plates[hole.plate]); };
+  const auto own = [&](const HoleModel& hole) { return joint.plates[hole.plate].stiffest(); };
   return std::ranges::max_element(fastener.holes, {}, own) - fastener.holes.begin();
 }
 
@@ -121,7 +118,7 @@ RigidJoint::RigidJoint(const JointModel& joint, const Held& held)
     : Z_(free_unknowns(joint, held)), Y_(relative_motions(joint)), scale_(VectorXd::Zero(Z_.cols())) {
   VectorXd own(joint.n_unknowns());  // stiffness of the plate of each unknown
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
-    own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(own_stiffness(joint.plates[i]));
+    own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(joint.plates[i].stiffest());
   for (Index j = 0; j < Z_.outerSize(); ++j)
     for (SparseMatrix::InnerIterator at(Z_, j); at; ++at) scale_[j] = std::max(scale_[j], own[at.row()]);
   MatrixXd S_z = MatrixXd::Zero(Z_.cols(), Z_.cols());

@@ -334,12 +334,12 @@ std::vector<int> joint_axes(std::span<const std::string> files, std::span<const 
         of_one_hole = {axes[disc - 1], axes[disc]};
     }
   }
+  if (found.empty()) return {0, 1};  // sheets without discs
   return of_one_hole.empty() ? std::vector<int>(found.begin(), found.end()) : of_one_hole;
 }
 
 PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices a, int p,
                       const std::vector<int>& axes) {
-  if (a.disc_hole.empty()) throw FileError(fmt::format("{}:disc/hole: is empty, expected at least one disc", file));
   std::vector<std::string> boundaries = a.external_id;
   for (Index i = 0; i < a.n_tractions(); ++i)
     if (!is_other_side(a, i)) boundaries.push_back(a.traction_id[i]);

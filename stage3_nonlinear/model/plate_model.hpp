@@ -76,6 +76,8 @@ struct PlateModel : formats::PlateProperties, PlateDegree {
   }
   /// m: unknowns of the discs, those of the file and those that symmetry fixes.
   [[nodiscard]] Index n_disc_unknowns() const { return holes.size() * axes.size(); }
+  /// Stiffness of the stiffest disc or external, force / length; 0 if there is none.
+  [[nodiscard]] double stiffest() const { return S.size() > 0 ? S.diagonal().maxCoeff() : 0; }
   /// True if the hoop stress around a hole is known, which it is not where a crack or another boundary cuts its rim.
   [[nodiscard]] bool has_peak(const std::string& hole) const {
     const auto is = [&](const formats::WaveRim& rim) { return rim.hole == hole && rim.has_closed_form(); };

@@ -292,11 +292,11 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
         fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
                     path.n_increments, step.load_factor, program::counted(step.iterations, "iteration"), step.residual);
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
-    text += fastener_table(joint, step, states[i], width) + memory_lines(joint, step) +
-            plate_table(joint, states[i], width);
+    if (joint.n_planes() > 0) text += fastener_table(joint, step, states[i], width);
+    text += memory_lines(joint, step) + plate_table(joint, states[i], width);
   }
   if (states.empty()) return text;
-  if (result.columns.find("F_error")) text += error_bar(joint, result);
+  if (joint.n_planes() > 0 && result.columns.find("F_error")) text += error_bar(joint, result);
   const Index last = std::ssize(states) - 1;
   text += external_table(result, joint.units, last) + row_table(result, joint.units, last);
   constexpr std::size_t few = 4;

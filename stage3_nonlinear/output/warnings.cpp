@@ -58,10 +58,9 @@ std::string motion_text(const JointModel& joint, const VectorXd& motion) {
 
 void warn_of_soft_plates(const JointModel& joint, WarningList& list) {
   constexpr double soft = 1e-8;
-  const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
-  const PlateModel& stiffest = *std::ranges::max_element(joint.plates, {}, stiffness);
+  const PlateModel& stiffest = *std::ranges::max_element(joint.plates, {}, &PlateModel::stiffest);
   for (const auto& plate : joint.plates)
-    if (const double ratio = stiffness(plate) / stiffness(stiffest); ratio > 0 && ratio < soft)
+    if (const double ratio = plate.stiffest() / stiffest.stiffest(); ratio > 0 && ratio < soft)
       list.add("plate-soft",
                "plate \"{}\" is {:.1e} times as stiff as plate \"{}\": check that both have the same units, and check "
                "its moduli and thickness",

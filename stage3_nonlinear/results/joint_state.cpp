@@ -103,7 +103,7 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, co
     state.rims = hole_states(plate.stresses, plate.border, *plate.stress_level, unit_case_coefficients(plate, state),
                              loaded_discs(plate, state), scale, state.loaded);
   if (with_stresses) state.cracks = crack_state(plate, unit_case_coefficients(plate, state));
-  worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
+  worst_row = std::max({worst_row, (required.head(m) - on_discs).lpNorm<Eigen::Infinity>(),
                         (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
     if (is_held[i]) state.Pe[i] = required[m + i];

@@ -60,7 +60,6 @@ std::map<std::string, LawScene> read_laws(const Value& laws) {
     const auto one_sided = value.find("one_sided");
     result.emplace(name, LawScene{read_law(value), one_sided && one_sided->boolean()});
   }
-  if (result.empty()) laws.fail("no law", "at least one");
   return result;
 }
 
@@ -150,10 +149,11 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   return fastener;
 }
 
-/// Reads all fasteners; ids are unique, and each hole has one fastener, which goes through each plate once.
+/// Reads all fasteners; ids are unique, and each hole has one fastener, which goes through each plate once. Sheets may
+/// be alone, all of them.
 void read_fasteners(const Value& fasteners, JointScene& scene) {
   std::set<std::string> ids, used, fastened;
-  for (const auto& value : fasteners.items(1)) {
+  for (const auto& value : fasteners.items()) {
     const FastenerScene& fastener = scene.fasteners.emplace_back(read_fastener(value, scene));
     if (!ids.insert(fastener.id).second)
       value.at("id").fail(fmt::format("\"{}\" stands twice", fastener.id), "each id once");
@@ -169,8 +169,8 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
     fastened.merge(plates);
   }
   for (const auto& plate : scene.plates)
-    if (!fastened.contains(plate.name))
-      refuse(plate.where, "this plate has no fastener", "plates that a fastener names in \"between\"");
+    if (!scene.fasteners.empty() && !fastened.contains(plate.name))
+      refuse(plate.where, "this plate has no fastener", "plates that a fastener names in \"between\", or no fasteners at all");
 }
 
 LoadScene read_load(const Value& value, const JointScene& scene) {
