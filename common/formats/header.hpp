@@ -104,6 +104,9 @@ struct UnitCases {
   /// negative force uses the second.
   std::vector<std::string> traction_id, traction_direction;
   std::vector<double> traction_arm{};  ///< (q) length; the moment `rotation` of a force f is f times this, else 0
+  /// (2) where a sheet without any support is held against rigid motions, length; empty: it is not
+  Eigen::VectorXd held_at{};
+  Eigen::VectorXd traction_moment{};  ///< (q) of such a sheet: moment of each unit traction about that place, length
   std::vector<std::string> traction_bearing;  ///< (q) side of the hole that bears, "+x", ...; "" for edges
   std::vector<std::string> traction_hole{};   ///< (q) hole under cosine pressure, "" for an edge
   std::vector<ContactRim> contact{};          ///< in the order of the holes

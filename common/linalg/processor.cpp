@@ -23,7 +23,8 @@
 ///
 /// Eigen passes on products of matrices without rows, as those of sheets without fasteners have; BLAS refuses their
 /// leading dimension 0 and returns, which is right: there is nothing to compute. All else is said as BLAS says it.
-extern "C" void xerbla_(const char* name, const int* argument, std::size_t length) {
+/// Programs of tests, which are to see any such call, have a definition of their own.
+extern "C" [[gnu::weak]] void xerbla_(const char* name, const int* argument, std::size_t length) {
   constexpr std::array<std::pair<std::string_view, int>, 6> leading_dimensions{
       {{"DGEMV", 6}, {"DSYMV", 5}, {"DGEMM", 8}, {"DGEMM", 10}, {"DGEMM", 13}, {"DSYMM", 7}}};
   const std::string_view called(name, length);

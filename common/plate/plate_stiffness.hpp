@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Unknowns {
   int n_loaded = 0, n_friction = 0, n_other = 0;
   std::vector<int> first_wave{}, first_friction{};  ///< (holes) first column of each hole's waves and friction cases
   std::vector<int> n_waves{}, n_cases{};            ///< (holes) and their numbers
+  std::optional<Eigen::Vector2d> held_at{};  ///< vertex that is held in place of supports, none of which there are
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }
   /// Degree of freedom that a point spring acts on.

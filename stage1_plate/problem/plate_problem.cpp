@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -70,6 +74,25 @@ void add_discs(const PlateScene& scene, const PlateMesh& plate, Unknowns& unknow
   for (const auto& point : scene.points) add(point.id, scene.disc_directions);
 }
 
+/// Holds a sheet that has no support, spring or rigid external against rigid motions: one vertex along both axes, and
+/// the vertex farthest from it across the way between them. Loads in balance cause no forces there.
+void hold_free_body(const PlateScene& scene, const PlateMesh& plate, Unknowns& unknowns) {
+  const bool is_free = scene.supports.empty() && scene.points.empty() && rigid_externals(scene).empty() &&
+                       std::ranges::none_of(scene.holes, [](const Hole& hole) { return hole.spring.has_value(); });
+  if (!is_free) return;
+  const auto farthest_from = [&](const Eigen::Vector2d& at) {
+    int vertex = 0;
+    (plate.mesh.nodes.colwise() - at).colwise().squaredNorm().maxCoeff(&vertex);
+    return vertex;
+  };
+  const int one = farthest_from(plate.mesh.nodes.rowwise().mean());
+  unknowns.held_at = plate.mesh.nodes.col(one);
+  const int other = farthest_from(*unknowns.held_at);
+  const Eigen::Vector2d way = plate.mesh.nodes.col(other) - *unknowns.held_at;
+  unknowns.dofs.col(one).setConstant(pfem::fixed_dof);
+  unknowns.dofs(std::abs(way.x()) > std::abs(way.y()) ? 1 : 0, other) = pfem::fixed_dof;
+}
+
 void number_free(Unknowns& unknowns) {
   int n_free = 0;
   for (int& dof : unknowns.dofs.reshaped())
@@ -88,6 +111,7 @@ Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, cons
   for (const int external : rigid_externals(scene))
     control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
   add_discs(scene, plate, unknowns);
+  hold_free_body(scene, plate, unknowns);
   number_free(unknowns);
   unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
   return unknowns;
@@ -185,6 +209,46 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, const Tractio
   }
 }
 
+/// Displacements by the rigid motions of a sheet: along x, along y, and a rotation by a unit angle about a place.
+Eigen::Matrix<double, 2, 3> rigid_motions(const Eigen::Vector2d& at, const Eigen::Vector2d& place) {
+  Eigen::Matrix<double, 2, 3> u;
+  u << 1, 0, place.y() - at.y(), 0, 1, at.x() - place.x();
+  return u;
+}
+
+/// Adds to each unit load of a free body what balances it: tractions on its straight border that vary as a rigid motion
+/// does. Loads that are in balance together add none, and the fields of each stay smooth where the body is held.
+void balance_loads(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem, Loads& loads) {
+  const Eigen::Vector2d& place = *problem.unknowns.held_at;
+  struct OnSide {
+    int element;
+    std::vector<int> modes;
+    std::array<Eigen::MatrixX2d, 3> load;  ///< of a traction as each motion
+  };
+  std::vector<OnSide> all;
+  Eigen::Matrix3d resistance = Eigen::Matrix3d::Zero();
+  for (const auto& sides : plate.edges.sides) {
+    const pfem::Side& side = sides[0];
+    if (sides.size() > 1 || plate.edges.arc[plate.edges.of(side)] >= 0) continue;
+    const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
+    OnSide& its = all.emplace_back(OnSide{side.element, rule.modes, {}});
+    its.load.fill(Eigen::MatrixX2d::Zero(rule.N.rows(), 2));
+    for (int q = 0; q < rule.ds.size(); ++q) {
+      const auto u = rigid_motions(rule.x.col(q), place);
+      const double area = plate.mesh.thickness[side.element] * rule.ds[q];
+      resistance += area * u.transpose() * u;
+      for (int k = 0; k < 3; ++k) its.load[k] += area * rule.N.col(q) * u.col(k).transpose();
+    }
+  }
+  const Eigen::Matrix3Xd amplitude = -resistance.ldlt().solve(resultants(scene, plate, problem.tractions, place));
+  for (const auto& its : all)
+    for (int column = 0; column < amplitude.cols(); ++column) {
+      const Eigen::MatrixX2d sum =
+          amplitude(0, column) * its.load[0] + amplitude(1, column) * its.load[1] + amplitude(2, column) * its.load[2];
+      add_load(problem, its.element, its.modes, sum.reshaped(), column, loads);
+    }
+}
+
 /// Sets T_f and T_c: loads of a unit total force of every traction case, uniform on an edge or as cosine pressure on
 /// half of an open hole.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
@@ -196,6 +260,7 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
     else
       add_edge_load(plate, scene.externals[list[column].external], problem, column, loads);
   }
+  if (problem.unknowns.held_at) balance_loads(scene, plate, problem, loads);
   const int n_f = problem.unknowns.n_free.back(), nc = problem.unknowns.n_controlled();
   Eigen::SparseMatrix<double> T(n_f + nc, count_of(list));
   T.setFromTriplets(loads.begin(), loads.end());
@@ -225,6 +290,31 @@ EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge) {
   double second = 0;
   sum_over([&](double area, const Eigen::Vector2d& x) { second += area * (x - all.centroid).squaredNorm(); });
   all.arm = std::sqrt(second / all.area);
+  return all;
+}
+
+Eigen::Matrix3Xd resultants(const PlateScene& scene, const PlateMesh& plate, const std::vector<TractionCase>& tractions,
+                            const Eigen::Vector2d& place) {
+  Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, std::ssize(tractions));
+  for (Eigen::Index i = 0; i < all.cols(); ++i) {
+    const auto& [at, side, unit_force] = tractions[i];
+    const External& external = scene.externals[at];
+    if (external.kind == ExternalKind::moment) {
+      all(2, i) = edge_moments(plate, external.on).arm;
+      continue;
+    }
+    Eigen::Vector2d force = rim::unit_vector(external.direction), middle;
+    if (external.kind == ExternalKind::bearing) {
+      const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
+      const auto d = rim::unit_vector({external.direction, side});
+      force[1 - rim::coordinate(external.direction)] =
+          side * rim::bearing(plate.mesh, plate.edges, rim, d).force_across / unit_force;
+      middle = rim.center;
+    } else {
+      middle = edge_moments(plate, external.on).centroid;
+    }
+    all.col(i) = rigid_motions(middle, place).transpose() * force;
+  }
   return all;
 }
 

@@ -71,6 +71,10 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
 /// Throws InputError for an arc outside the rim in the model, and for a load without effect.
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
 
+/// Force along x and y, and moment about a place, of every unit load of a sheet, (3, tractions).
+[[nodiscard]] Eigen::Matrix3Xd resultants(const PlateScene& scene, const PlateMesh& plate,
+                                          const std::vector<TractionCase>& tractions, const Eigen::Vector2d& place);
+
 /// Warnings of half and quarter holes with springs on lines without a symmetry support, one for each line with the
 /// support to add. In such a model the disc alone carries the load of the missing part.
 [[nodiscard]] std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMesh& plate,

@@ -89,6 +89,10 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
     a.traction_hole.push_back(side != 0 ? external.on : "");
     a.traction_bearing.push_back(side == 0 ? "" : rim::name_of({external.direction, side}));
   }
+  if (unknowns.held_at) {
+    a.held_at = *unknowns.held_at;
+    a.traction_moment = resultants(scene, plate, problem.tractions, *unknowns.held_at).row(2).transpose();
+  }
   a.disc_hole = unknowns.disc_hole;
   for (const rim::Axis axis : unknowns.disc_direction) a.disc_direction.push_back(rim::name_of(axis));
   a.friction_hole = problem.friction_hole;
@@ -191,6 +195,9 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
                                  counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
                                  counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
   for (int i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
+  if (a.held_at.size() > 0)
+    text += fmt::format("  nothing holds the sheet: it is held at ({:g}, {:g}), and its loads must be in balance\n",
+                        a.held_at[0], a.held_at[1]);
   for (const auto& move : plate.moved_lines) text += fmt::format("  cell line {}\n", move);
   const auto on_springs = std::ranges::count_if(a.contact, [](const auto& rim) { return !rim.disk.is_given(); });
   if (on_springs > 0)

@@ -191,6 +191,7 @@ double residual_force(const PlateSolution& plate, const PlateCases& level, const
 std::optional<double> equilibrium(const PlateSolution& plate, const formats::PlateMatrices& a,
                                   const PlateCases& level) {
   std::optional<double> worst;
+  if (plate.held_at.size() > 0) return worst;  // a free body: its unit loads are in balance only together
   for (const auto& free : free_translations(plate, a))
     worst = std::max(worst.value_or(0), residual_force(plate, level, free));
   return worst;
@@ -278,7 +279,7 @@ std::string report(const Checks& checks) {
       "  relative errors of the checks: S against the energy of its fields {}, R and T against reciprocity {}, "
       "equilibrium {}; rounding may change S by {:.0e}\n",
       shown(checks.energy, "not applicable (no discs)"), shown(checks.reciprocity, "not applicable (no loads)"),
-      shown(checks.equilibrium, "not applicable (supported)"), checks.rounding);
+      shown(checks.equilibrium, "not applicable (the sheet is held)"), checks.rounding);
 }
 
 }  // namespace fastjoint::stage2

@@ -114,6 +114,31 @@ void set_load(const JointModel& joint, const LoadScene& load, const std::vector<
   if (!load.tied.empty()) tie(joint, load, all.held);
 }
 
+/// Refuses loads that are not in balance on a sheet that nothing holds.
+void check_balance(const JointModel& joint, const CaseScene& its, const VectorXd& load) {
+  constexpr double rounding = 1e-9;  // of the sum of magnitudes
+  const auto loads = loads_of(joint);
+  for (Index at = 0; at < std::ssize(joint.plates); ++at) {
+    const PlateModel& plate = joint.plates[at];
+    if (!plate.is_free_body()) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero(), magnitude = sum;
+    for (Index i = 0; i < load.size(); ++i) {
+      if (loads[i].plate != at) continue;
+      const Eigen::Vector3d its_load = load[i] * plate.resultant(loads[i].at);
+      sum += its_load;
+      magnitude += its_load.cwiseAbs();
+    }
+    magnitude[2] = std::max(magnitude[2], magnitude.head<2>().sum() * plate.traction_moment.cwiseAbs().maxCoeff());
+    if ((sum.array().abs() <= rounding * magnitude.array()).all()) continue;
+    refuse(its.where + "/loads",
+           fmt::format(
+               "the loads on \"{}\", which has no support, have a resultant: force ({:.6g}, {:.6g}), moment {:.6g} "
+               "about ({:.6g}, {:.6g})",
+               plate.name, sum[0], sum[1], sum[2], plate.held_at[0], plate.held_at[1]),
+           "loads in balance, or a sheet with \"supports\"");
+  }
+}
+
 /// Sets the laws, clearances, friction and gaps.
 void set_fasteners(const JointModel& joint, const JointScene& scene, const CaseScene& its_case, Parameters& all) {
   std::vector<double> clearance, mu, gap;
@@ -154,6 +179,7 @@ Parameters parameters_of(const JointModel& joint, const JointScene& scene, const
   all.load = VectorXd::Zero(n_loads);
   all.held.displaced.resize(n_loads);
   for (const auto& load : its.loads) set_load(joint, load, its.wanted_load_factors(), all);
+  check_balance(joint, its, all.load);
   set_fasteners(joint, scene, its, all);
   set_free_shapes(joint, free_shapes(joint, scene, its), all);
   return all;

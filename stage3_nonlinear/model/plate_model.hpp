@@ -76,6 +76,16 @@ struct PlateModel : formats::PlateProperties, PlateDegree {
   }
   /// m: unknowns of the discs, those of the file and those that symmetry fixes.
   [[nodiscard]] Index n_disc_unknowns() const { return holes.size() * axes.size(); }
+  /// True if nothing holds the sheet, whose loads must be in balance.
+  [[nodiscard]] bool is_free_body() const { return held_at.size() > 0; }
+  /// Force along x and y and moment about the place where a free body is held, of a unit of one of its tractions.
+  [[nodiscard]] Eigen::Vector3d resultant(Index traction) const {
+    Eigen::Vector3d all(0, 0, traction_moment[traction]);
+    if (is_moment(traction)) return all;
+    all[traction_axis[traction]] = 1;
+    all[1 - traction_axis[traction]] = traction_resultant_across[traction];
+    return all;
+  }
   /// Stiffness of the stiffest disc or external, force / length; 0 if there is none.
   [[nodiscard]] double stiffest() const { return S.size() > 0 ? S.diagonal().maxCoeff() : 0; }
   /// True if the hoop stress around a hole is known, which it is not where a crack or another boundary cuts its rim.

@@ -268,17 +268,23 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
 }  // namespace
 
 std::string summary_title(const JointScene& scene, const JointModel& joint) {
+  const bool is_solved = joint.n_planes() + joint.n_moments() > 0;
   std::string text =
-      fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
+      fmt::format("joint{}: {}, {}, p = {}{}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
                   program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
-                  joint.p, method(scene, joint));
+                  joint.p, is_solved ? ", " + method(scene, joint) : "");
   for (const auto& [name, law] : scene.laws)
     if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)
     if (const auto error = relative_error(plate))
       text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name, *error);
-    else if (plate.S.isZero(0))
+    else if (plate.S.size() > 0 && plate.S.isZero(0))
       text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
+  for (const auto& plate : joint.plates)
+    if (plate.is_free_body())
+      text += fmt::format(
+          "{} has no support: its loads are in balance, and it is held at ({:.6g}, {:.6g}) without a force\n",
+          plate.name, plate.held_at[0], plate.held_at[1]);
   return text;
 }
 
@@ -306,7 +312,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
                         arm > 0 ? stiffness * arm * arm : stiffness,
                         arm > 0 ? unit(joint.units, 1, 1) + "/rad" : unit(joint.units, -1, 1));
   }
-  return text + legend + interference_lines(joint, path, result) +
+  return text + (joint.n_planes() > 0 ? legend : "") + interference_lines(joint, path, result) +
          stress_tables(joint, path, states, result, all_stresses) + highest_peaks(result, joint.units, last) +
          secondary_bending(joint, states.back());
 }
