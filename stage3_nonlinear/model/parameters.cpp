@@ -128,8 +128,9 @@ void check_balance(const JointModel& joint, const CaseScene& its, const VectorXd
       sum += its_load;
       magnitude += its_load.cwiseAbs();
     }
-    magnitude[2] = std::max(magnitude[2], magnitude.head<2>().sum() * plate.traction_moment.cwiseAbs().maxCoeff());
-    if ((sum.array().abs() <= rounding * magnitude.array()).all()) continue;
+    const double force = magnitude.head<2>().sum();
+    const double moment = std::max(magnitude[2], force * plate.traction_moment.lpNorm<Eigen::Infinity>());
+    if (sum.head<2>().norm() <= rounding * force && std::abs(sum[2]) <= rounding * moment) continue;
     refuse(its.where + "/loads",
            fmt::format(
                "the loads on \"{}\", which has no support, have a resultant: force ({:.6g}, {:.6g}), moment {:.6g} "

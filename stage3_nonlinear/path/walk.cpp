@@ -60,7 +60,7 @@ bool Walk::reach(double target) {
 bool Walk::jump(const Place& from) {
   iterations_ = 0;
   here_ = from;
-  return solve_from_here(from.load_factor);
+  return equations_.n_unknowns() == 0 || solve_from_here(from.load_factor);
 }
 
 PathStep Walk::step(const Place& at, const ContactState& state, const TangentCheck& check) const {

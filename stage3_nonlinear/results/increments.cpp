@@ -92,7 +92,9 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
     if (wanted.sensitivities) last.emplace(std::move(point));
     return std::nullopt;
   };
-  LoadPath path = load_factors.empty() ? follow_events(equations, options) : follow(equations, load_factors, options);
+  const bool by_events = load_factors.empty() && equations.n_unknowns() > 0;  // without unknowns nothing happens
+  LoadPath path = by_events ? follow_events(equations, options)
+                            : follow(equations, load_factors.empty() ? std::vector{1.0} : load_factors, options);
   if (errors.are_known()) {
     all.F_error.emplace(std::ssize(F_error), joint.n_planes());
     for (Index i = 0; i < std::ssize(F_error); ++i) all.F_error->row(i) = F_error[i].transpose();

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -108,12 +110,82 @@ TEST(CrackMesh, CracksOfEachKindInOneSheet) {
   EXPECT_EQ(plate.tips[2].length, 1);
 }
 
+/// Lengths of cracks, by turns evenly spread, spread over powers of ten from a hundredth of a radius, and nearly equal.
+class RandomLengths {
+ public:
+  /// @param room From the rim to what the crack must not reach.
+  double next(double room) {
+    const double most = 0.98 * room, at = share_(random_);
+    const double even = least + at * (most - least), by_powers = least * std::pow(most / least, at);
+    const double again =
+        std::min(last_ * (1 + std::array{0.0, 1e-9, 1e-6, 1e-3, 1e-2}[int(5 * share_(random_))]), most);
+    return last_ = std::array{even, by_powers, again}[int(3 * share_(random_))];
+  }
+  double share() { return share_(random_); }
+  static constexpr double least = 0.01;  ///< of holes of radius 1
+
+ private:
+  std::mt19937 random_{66};
+  std::uniform_real_distribution<double> share_{0, 1};
+  double last_ = least;
+};
+
+std::string crack_from(int hole, double angle, double length) {
+  return fmt::format(R"({{"from": "hole:{}", "angle": {}, "length": {:.17g}}})", hole, angle, length);
+}
+
+std::string hole_at(int name, double x, double y) {
+  return fmt::format(R"({{"id": "{}", "center": [{:.17g}, {:.17g}], "radius": 1}})", name, x, y);
+}
+
+TEST(CrackMesh, TakesAnyTwoLengthsAtAHole) {
+  RandomLengths random;
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE(i);
+    const double y = i % 3 == 0 ? 0 : 2.5 * (2 * random.share() - 1), slant = i % 4 == 3 ? 360 * random.share() : 90;
+    const bool is_upright = slant == 90;
+    const double a = random.next(is_upright ? 4 - y : 3.5), b = random.next(is_upright ? 4 + y : 3.5);
+    const double other = is_upright ? -90 : slant + 30 + 300 * random.share();
+    const auto plate = stage1::make_mesh(scene(R"("x": [-12, 12], "y": [-5, 5])", hole_at(1, 0, is_upright ? y : 0),
+                                               crack_from(1, slant, a) + "," + crack_from(1, other, b)));
+    expect_open(plate, 240 - std::numbers::pi, a + b);
+    ASSERT_EQ(plate.tips.size(), 2);
+  }
+}
+
+TEST(CrackMesh, TakesAnyLengthsInARow) {
+  RandomLengths random;
+  constexpr double pitch = 5;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    const int n = 2 + i % 3;
+    std::string lines, holes, cracks;
+    double total = 0, room = pitch / 2 - 1;  // what is left of the ligament below the hole
+    const auto add = [&](int at, double angle, double length) {
+      cracks += (cracks.empty() ? "" : ",") + crack_from(at, angle, length);
+      total += length;
+    };
+    for (int at = 0; at < n; ++at) {
+      lines += fmt::format("{}{}", at == 0 ? "" : ", ", pitch * at);
+      holes += (at == 0 ? "" : ",") + hole_at(at, 0, pitch * (at + 0.5));
+      if (room > 0.05 && random.share() < 0.7) add(at, -90, random.next(room));
+      room = at + 1 < n ? pitch - 2 : pitch / 2 - 1;
+      if (random.share() < 0.2) continue;
+      const double length = random.next(room);
+      add(at, 90, length);
+      room -= length;
+    }
+    lines += fmt::format(", {}", pitch * n);
+    if (cracks.empty()) add(0, 90, 0.5);
+    const auto plate = stage1::make_mesh(scene(fmt::format(R"("x": [-10, 10], "y": [{}])", lines), holes, cracks));
+    expect_open(plate, 20 * pitch * n - n * std::numbers::pi, total);
+  }
+}
+
 TEST(CrackMesh, RefusesWhatItCannotMesh) {
   const auto message = [](const char* lines, const char* cracks) {
     return test::message_of([&] { return stage1::make_mesh(scene(lines, hole, cracks)); });
   };
-  EXPECT_THAT(message(square, R"({"from": "hole:h", "angle": 0, "length": 0.5}, {"from": [1.7, 0], "to": [3, 0]})"),
-              HasSubstr("two tips in the cell of hole \"h\" are on one ray"));
   EXPECT_THAT(message(square, R"({"from": "left", "at": 0, "length": 8})"), HasSubstr("it runs through hole \"h\""));
 }
 
