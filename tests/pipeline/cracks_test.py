@@ -239,6 +239,21 @@ def check_lines(folder):
         near("  its change by the last degree", *factors(file, "P"), 1e-4)
 
 
+def check_lengths(folder):
+    """K over the length of two cracks at a hole, equal, unequal and slanted, is smooth: no mesh is seen in it. A polynomial of degree 8 leaves 1e-4."""
+    lengths = np.linspace(2, 8, 41)[::EVERY]
+    for name, cracks in (("equal", lambda c: ((90, c), (-90, c))), ("one of 2", lambda c: ((90, c), (-90, 2))), ("slanted", lambda c: ((60, c), (-140, 3)))):
+        found = []
+        for c in lengths:
+            sheet = scene([0, 60], [0, 25.4], p=[7, 8], holes=[{"id": "h", "center": [30, 12.7], "radius": 2.4}], supports=[{"on": "left", "fix": ["x", "y"]}],
+                          cracks=[{"from": "hole:h", "angle": angle, "length": each} for angle, each in cracks(c)],
+                          external=[{"id": "S", "on": "right", "direction": "x", "kind": "traction"}])
+            with solved(folder, sheet) as file:
+                found.append(factors(file, "S")[-1])
+        fit = np.polynomial.Chebyshev.fit(lengths, found, 8)
+        near(f"two cracks, {name}: off a polynomial of degree 8", abs(fit(lengths) / found - 1).max(), 0, 1e-4, absolute=True)
+
+
 def check_example(folder):
     """What its page shows is printed, and the file for crack growth has it."""
     text = (ROOT / "examples/crack/README.md").read_text()
@@ -321,6 +336,7 @@ def main():
         check_estimates(folder)
         check_place(folder)
         check_lines(folder)
+        check_lengths(folder)
         check_example(folder)
         check_study(folder)
     end_if_missed()
