@@ -274,13 +274,10 @@ void unit_case_datasets(File& file, Data<File, UnitCases>& a, const std::vector<
        or_if_foreign(h5::one_of({"x", "y", rotation}), "x"));
   if (File::reads || std::ssize(a.traction_arm) == q)
     file("traction/arm", a.traction_arm, {q}, unit(units, 1, 0), traction_arm, h5::or_else(0));
-  if (File::reads || a.held_at.size() > 0) {
-    const auto length = unit(units, 1, 0);
-    file("held/at", a.held_at, {any}, length,
-         "x and y of the place where a sheet without supports is held against rigid motions", h5::Allowed{}.or_else(0));
-    file("held/moment", a.traction_moment, {a.held_at.size() > 0 ? q : 0}, length,
-         "moment of each unit traction about that place, whose loads must be in balance", h5::Allowed{}.or_else(0));
-  }
+  file("held/at", a.held_at, {any}, unit(units, 1, 0),
+       "x and y where a sheet that nothing holds is held against rigid motions", h5::or_else(0));
+  file("held/moment", a.traction_moment, {a.held_at.size() > 0 ? q : 0}, unit(units, 1, 0),
+       "moment about there of each unit traction on such a sheet", h5::or_else(0));
   file("traction/bearing", a.traction_bearing, {q}, "1", bearing_side, traction_sides());
   file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge",
        hole_or_edge);

@@ -12,7 +12,7 @@ using h5::any;
 using h5::Column;
 using h5::or_else;
 
-const h5::Format matrices_format{"plate-matrices", 1, 14};
+const h5::Format matrices_format{"plate-matrices", 1, 15};
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed or_none = h5::Allowed{.text = "numbers >= 0", .low = 0}.or_else(0);
 

@@ -15,7 +15,7 @@ using Eigen::Index;
 using h5::any;
 using h5::Column;
 
-const h5::Format solution_format{"plate-solution", 5, 6};
+const h5::Format solution_format{"plate-solution", 5, 7};
 constexpr const char* per_case = "per unit of the case";
 
 template <class File, class Mesh>
