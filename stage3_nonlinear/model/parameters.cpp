@@ -131,7 +131,7 @@ void check_balance(const JointModel& joint, const CaseScene& its, const VectorXd
     const double force = magnitude.head<2>().sum();
     const double moment = std::max(magnitude[2], force * plate.traction_moment.lpNorm<Eigen::Infinity>());
     if (sum.head<2>().norm() <= rounding * force && std::abs(sum[2]) <= rounding * moment) continue;
-    refuse(its.where + "/loads",
+    refuse(its.where,
            fmt::format(
                "the loads on \"{}\", which has no support, have a resultant: force ({:.6g}, {:.6g}), moment {:.6g} "
                "about ({:.6g}, {:.6g})",

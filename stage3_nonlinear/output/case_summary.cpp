@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
@@ -19,7 +21,7 @@ using formats::EnvelopeTable;
 using formats::Extremes;
 using formats::JointResult;
 
-constexpr std::size_t max_case_rows = 16;
+constexpr std::size_t max_case_rows = 16, max_case_lines = 50;
 
 /// The largest transferred load of a case, and the highest peak if there is one: "412.3 at 7", "98.1 at upper:3".
 struct Largest {
@@ -33,25 +35,40 @@ struct Largest {
   [[nodiscard]] std::string text() const { return at == "-" ? at : fmt::format("{:.6g} at {}", value, at); }
 };
 
+/// A line for each case; of many cases for those with the largest loads, or the highest peaks without fasteners.
 std::string case_lines(const JointModel& joint, const JointResult& a) {
+  struct Line {
+    Index increments = 0;
+    Largest load, peak;
+  };
+  std::vector<Line> lines(a.case_name.size());
+  for (Index row = 0; row < a.case_of.size(); ++row) {
+    auto& [n, load, peak] = lines[a.case_of[row]];
+    ++n;
+    for (Index j = 0; j < joint.n_planes(); ++j)
+      load.take(std::abs(a.columns["transferred"](row, 2 * j)), joint.short_name(joint.planes[j]));
+    for (const auto& plate : a.plates)
+      for (Index rim = 0; rim < std::ssize(plate.holes.hole); ++rim)
+        peak.take(plate.columns["rim/peak_hoop"](row, rim), plate.name + ":" + plate.holes.hole[rim]);
+  }
+  std::vector<std::size_t> shown(lines.size());
+  std::iota(shown.begin(), shown.end(), 0);
+  if (shown.size() > max_case_lines) {
+    std::ranges::stable_sort(shown, std::greater(), [&](std::size_t at) {
+      return joint.n_planes() > 0 ? lines[at].load.value : lines[at].peak.value;
+    });
+    shown.resize(max_case_lines);
+  }
   Table cases("{:<32} {:>10}   {:<32} {}",
               {{"case", "increments", fmt::format("largest load transferred [{}]", unit(joint.units, 0, 1)),
                 fmt::format("highest peak hoop stress [{}]", unit(joint.units, -2, 1))}});
-  for (Index at = 0; at < std::ssize(a.case_name); ++at) {
-    Largest load, peak;
-    Index n = 0;
-    for (Index row = 0; row < a.case_of.size(); ++row) {
-      if (a.case_of[row] != at) continue;
-      ++n;
-      for (Index j = 0; j < joint.n_planes(); ++j)
-        load.take(std::abs(a.columns["transferred"](row, 2 * j)), joint.short_name(joint.planes[j]));
-      for (const auto& plate : a.plates)
-        for (Index rim = 0; rim < std::ssize(plate.holes.hole); ++rim)
-          peak.take(plate.columns["rim/peak_hoop"](row, rim), plate.name + ":" + plate.holes.hole[rim]);
-    }
-    cases.row({program::one_line(a.case_name[at]), fmt::to_string(n), load.text(), peak.text()});
-  }
-  return cases.text();
+  for (const std::size_t at : shown)
+    cases.row({program::one_line(a.case_name[at]), fmt::to_string(lines[at].increments), lines[at].load.text(),
+               lines[at].peak.text()});
+  std::string text = cases.text();
+  if (lines.size() > shown.size())
+    text += fmt::format("  ... and {} more cases with smaller ones\n", lines.size() - shown.size());
+  return text;
 }
 
 /// Table of a quantity's envelope: all rows in their order, or those of the largest magnitude. Smallest values are

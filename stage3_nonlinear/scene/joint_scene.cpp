@@ -11,6 +11,7 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/program/program.hpp"
+#include "stage3_nonlinear/scene/case_table.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -170,7 +171,8 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
   }
   for (const auto& plate : scene.plates)
     if (!scene.fasteners.empty() && !fastened.contains(plate.name))
-      refuse(plate.where, "this plate has no fastener", "plates that a fastener names in \"between\", or no fasteners at all");
+      refuse(plate.where, "this plate has no fastener",
+             "plates that a fastener names in \"between\", or no fasteners at all");
 }
 
 LoadScene read_load(const Value& value, const JointScene& scene) {
@@ -276,6 +278,11 @@ std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
   for (const char* key : {"temperatures", "fastener_temperature", "loads"})
     if (const auto own = root.find(key); own && given)
       own->fail("given together with \"cases\"", key == std::string("loads") ? "one of them" : "it in each case");
+  if (given && given->is_object()) {
+    given->only({"table"});
+    const auto folder = std::filesystem::path(root.file()).parent_path();
+    return read_case_table((folder / given->at("table").text()).string(), scene.plates, factors);
+  }
   std::vector<CaseScene> cases;
   std::set<std::string> names;
   const auto items = given ? given->items(1) : std::vector{root};
@@ -285,7 +292,7 @@ std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
     CaseScene& its = cases.emplace_back(CaseScene{given ? item.at("name").text() : "",
                                                   read_loads(item.at("loads"), scene, given ? 0 : 1),
                                                   own ? read_increments(*own) : factors});
-    its.where = where(item);
+    its.where = where(item.at("loads"));
     read_temperatures(item, scene, its);
     if (!names.insert(its.name).second)
       item.at("name").fail(fmt::format("\"{}\" stands twice", its.name), "each name once");
@@ -295,7 +302,7 @@ std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
       std::ranges::any_of(scene.laws, [](const auto& each) { return each.second.law && each.second.law->remembers(); });
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (remembers && cases[i].after && cases[i].load_factors.empty())
-      refuse(cases[i].where + "/increments",
+      refuse(where(items[i]) + "/increments",
              fmt::format("\"events\" after \"{}\", in which fasteners may have yielded or slipped, so that they do so "
                          "at other loads now",
                          cases[*cases[i].after].name),

@@ -142,6 +142,51 @@ def against_single_runs(folder):
              0, 1e-7, absolute=True)
 
 
+def tabled(folder):
+    """Cases of a table, 1000 of them, are those of single runs to 1e-9 of their scale, in another order too; what is wrong is named by line and column."""
+    random = np.random.default_rng(66)
+    sheets(folder, contact=True)
+    scene = joint() | {"cases": {"table": "loads.csv"}, "bending": "none"}
+    for fastener in scene["fasteners"]:
+        fastener |= {"gap": 0.01}
+    forces = random.uniform(-5000, 5000, (1000, 2)).round(3)
+    line = lambda i: f"flight {i},{forces[i, 0]},{forces[i, 1]}"
+    heading = "case,upper:P,upper:T"
+
+    def solve(order):
+        (folder / "loads.csv").write_text("\n".join([heading, *map(line, order)]) + "\n")
+        done = run(folder, scene)
+        with h5py.File(folder / "out.h5") as file:
+            assert list(file["case/name"].asstr()) == [f"flight {i}" for i in order]
+            return done.stdout, tables(file)
+
+    printed, rows = solve(range(1000))
+    assert len(printed.splitlines()) < 200 and "more cases" in printed, printed
+    picked = random.permutation(1000)[:20]
+    again = solve(picked)[1]
+    worst = 0
+    for at, i in enumerate(picked):
+        run(folder, joint(**{"loads": loads(*map(float, forces[i])), "bending": "none", "fasteners": scene["fasteners"]}))
+        with h5py.File(folder / "out.h5") as file:
+            single = tables(file)
+        for name, values in single.items():
+            if name not in rows or values.shape[1:] != rows[name].shape[1:]:
+                continue
+            scale = np.nanmax(np.abs(rows[name]), initial=0, where=np.isfinite(rows[name])) or 1
+            for found in (rows[name][i], again[name][at]):
+                apart = np.abs(np.where(np.isfinite(values[0]), found - values[0], 0)).max(initial=0) / scale
+                worst = max(worst, apart if "error" not in name and "angle" not in name else 0)
+    near("cases of a table against single runs, and in another order", worst, 0, 1e-9, absolute=True)
+
+    for text, message in (("case,upper:P\na,1\na,2\n", 'loads.csv:3: "a" stands twice'), ("case,upper:P\na,x\n", 'loads.csv:2: "x" in column "upper:P"'),
+                          ("name,upper:P\na,1\n", 'loads.csv:1: no column "case"'), ("case,upper:P\n", "loads.csv: no case"), ("case,side:P\na,1\n", 'loads.csv:1: column "side:P"'),
+                          ("case,upper:Q\na,1\n", 'column "upper:Q": external "Q" does not exist'), ("case,upper:P\na\n", "loads.csv:2: 1 column below 2 of names"),
+                          ("case,upper:P moment\na,1\n", 'takes no moment'), ("case,upper:P,upper:P displacement\na,1,1\n", "a second column of this external")):
+        (folder / "loads.csv").write_text(text)
+        said = run(folder, scene, status=2).stderr
+        assert message in said, (message, said)
+
+
 def superposition(folder):
     sheets(folder)
     run(folder, joint([{"name": "P", "loads": loads(1000)}, {"name": "T", "loads": loads(0, 500)}, {"name": "both", "loads": loads(-2000, 250)},
@@ -319,7 +364,7 @@ def studies(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for each in (against_single_runs, superposition, one_after_another, totals, failures, ties, studies):
+        for each in (against_single_runs, tabled, superposition, one_after_another, totals, failures, ties, studies):
             each(Path(name))
     end_if_missed()
 

@@ -226,7 +226,6 @@ BAD_INPUTS = [
     ("joint_plate_name_dot", "joint_laws", "/plates/.", "plate_base.matrices.h5"),
     ("joint_plate_name_ground", "joint_laws", "/plates/ground", "plate_base.matrices.h5"),
 
-    ("joint_laws_none", "joint_laws", "/laws", {}),
     ("joint_law_nameless", "joint_laws", "/laws/", {"type": "linear", "k": 1}),
     ("joint_law_type_unknown", "joint_laws", "/laws/bolt/type", "glue"),
     ("joint_rigid_with_k", "joint_stack", "/laws/rigid/k", 1),
@@ -300,7 +299,6 @@ BAD_INPUTS = [
     ("study_cases_none", "study_grid", "/cases", []),
     ("study_case_number", "study_grid", "/cases/0", 1),
     ("study_place_of_a_case", "study_random", "/variables/2/at", "/cases/0/increments"),
-    ("joint_fasteners_none", "joint_laws", "/fasteners", []),
     ("joint_fasteners_object", "joint_laws", "/fasteners", {}),
     ("joint_fastener_id_empty", "joint_laws", "/fasteners/0/id", ""),
     ("joint_fastener_law_number", "joint_laws", "/fasteners/0/law", 1),
