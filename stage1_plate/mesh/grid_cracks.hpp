@@ -13,6 +13,11 @@ namespace fastjoint::stage1 {
 /// Distance of places that count as one, relative to the plate's size.
 inline constexpr double same = 1e-9;
 
+/// Ratio of the sizes of neighbouring elements away from a tip.
+inline constexpr double growth = 3.5;
+/// Lines are left out that are nearer to another than this share of the step to the line before.
+inline constexpr double sliver = 0.3;
+
 /// A tip of a crack in a grid.
 struct TipPlace {
   Eigen::Vector2d at;

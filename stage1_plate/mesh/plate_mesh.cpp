@@ -22,13 +22,13 @@ void check_elements(const PlateScene& scene, const PlateMesh& plate) {
     const double ratio = pfem::jacobian_ratio(pfem::ElementMap(plate.mesh, plate.edges, element));
     if (ratio > min_jacobian_ratio) continue;
     const Eigen::Vector2d center = plate.mesh.nodes(Eigen::all, plate.mesh.quads.col(element)).rowwise().mean();
-    reject(
-        scene, "/geometry",
-        fmt::format("element {} near ({:g}, {:g}) is folded, clockwise or nearly so (min Jacobian / mean = {:.2g})",
-                    element, center.x(), center.y(), ratio),
-        fmt::format("convex quadrilaterals, counter-clockwise, ratio > {:g}; leave more room between holes{} and cell "
-                    "lines",
-                    min_jacobian_ratio, scene.cracks.empty() ? "" : ", tips of cracks"));
+    reject(scene, "/geometry",
+           fmt::format("element {} near ({:g}, {:g}) is folded, clockwise or nearly so (min Jacobian / mean = {:.2g})",
+                       element, center.x(), center.y(), ratio),
+           fmt::format(
+               "convex quadrilaterals, counter-clockwise, ratio > {:g}; {}leave more room between holes and cell "
+               "lines",
+               min_jacobian_ratio, scene.cracks.empty() ? "" : "draw cell lines close around a hole with cracks, or "));
   }
 }
 

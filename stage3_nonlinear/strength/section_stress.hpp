@@ -62,8 +62,8 @@ class HoleSections {
   [[nodiscard]] MeanStress bypass(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
   /// Stress of the more loaded section across each axis, by magnitude, fastener included.
   [[nodiscard]] MeanStress gross(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
-  /// The same of the net sections, of that in larger tension; infinite if the hole fills a strip that carries, or cracks
-  /// have opened the section.
+  /// The same of the net sections, of that in larger tension; infinite if the hole fills a strip that carries, or
+  /// cracks have opened the section.
   [[nodiscard]] MeanStress net(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
 
  private:
