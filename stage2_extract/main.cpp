@@ -31,6 +31,7 @@ const program::Command command = {
       "external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
      {"--plate", "NAME", "name of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
      {"--increment", "N", "increment of RESULT.h5 to show; default: the one that governs"},
+     {"--case", "NAME", "case of RESULT.h5 to show, at its last increment"},
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
 void write_matrices(const program::Arguments& arguments, formats::PlateSolution plate, program::Timings& timings) {
@@ -81,7 +82,7 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
     throw InputError("--loads-only: given together with --field; allowed: one of them");
   stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
                                   arguments.integer("--increment", 1, max_increments, 0),
-                                  arguments.integer("--p", 1, pfem::highest_p, 0)};
+                                  arguments.integer("--p", 1, pfem::highest_p, 0), arguments.text("--case")};
   stage2::check_field_options(request, arguments.flag("--field"), arguments.output, arguments.timings);
   return request;
 }

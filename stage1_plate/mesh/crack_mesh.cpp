@@ -177,8 +177,13 @@ class Grader {
     // Lines from a tip are straight now.
     std::erase_if(mesh.arcs, [&](const pfem::Arc& arc) { return tips_.contains(arc.a) || tips_.contains(arc.b); });
     const auto follow = [&](std::vector<pfem::Side>& sides) {
-      for (auto& side : sides)
-        if (const auto found = moved_.find(side); found != moved_.end()) side = found->second;
+      std::vector<pfem::Side> now;
+      for (const auto& side : sides)
+        if (const auto found = moved_.find(side); found != moved_.end())
+          now.insert(now.end(), found->second.begin(), found->second.end());
+        else
+          now.push_back(side);
+      sides = std::move(now);
     };
     for (auto& [name, sides] : plate_.sets) follow(sides);
     for (auto& section : plate_.sections) follow(section.sides);
@@ -201,11 +206,13 @@ class Grader {
           quads_[element] = quad;
         else
           add(quad, element);
-        if (layer == 0) moved_[{element, (vertex + 1 + k) % 4}] = {at, 1};
+        if (layer == 0) moved_[{element, (vertex + 1 + k) % 4}] = {{at, 1}};
+        moved_[{element, (vertex + 3 * k) % 4}].push_back({at, 2 * k});  // a piece of the side that ends at the tip
         open.tip.layers[layer].push_back(at);
       }
       outer = inner;
     }
+    for (const int k : {0, 1}) moved_[{element, (vertex + 3 * k) % 4}].push_back({count_of(quads_), 3 * k});
     add(Eigen::Vector4i(open.node, outer[0], outer[1], outer[2]), element);
   }
 
@@ -234,7 +241,7 @@ class Grader {
   std::vector<int> material_;
   std::map<std::pair<int, int>, int> scaled_;
   std::set<int> tips_;
-  std::map<pfem::Side, pfem::Side> moved_;  ///< keys: where they were
+  std::map<pfem::Side, std::vector<pfem::Side>> moved_;  ///< keys: where they were
 };
 
 /// Checks the sheet around a tip, where the dual fields hold for one isotropic material.

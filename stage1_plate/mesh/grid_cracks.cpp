@@ -117,6 +117,7 @@ class Planner {
       // Wide sectors next to a tip fold: the circle inside bulges beyond the diagonal from the tip.
       result_.tips[i].push_back({std::atan2(ray.y(), ray.x()), ray.norm(), std::min(size, sliver * ray.norm())});
       if (is_in(cell, tip, margin_)) return;
+      add_ray(cell.hole, ray);  // on the outline, where a crack along it has no node otherwise
     }
     for (const int axis : {0, 1})
       for (const double sign : {-1.0, 0.0, 1.0})
@@ -210,6 +211,11 @@ std::vector<CrackPath> crack_paths(const PlateScene& scene, const PlateMesh& pla
       const int a = plate.edges.nodes(0, edge), b = plate.edges.nodes(1, edge);
       if (plate.edges.arc[edge] < 0 && is_on(a) && is_on(b)) path.edges.emplace_back(a, b);
     }
+    double covered = 0;
+    for (const auto& [a, b] : path.edges) covered += (plate.mesh.nodes.col(b) - plate.mesh.nodes.col(a)).norm();
+    if (std::abs(covered - length) > 1e-6 * length)
+      reject_crack(scene, i, fmt::format("edges of elements lie along {:.6g} of its length {:.6g}", covered, length),
+                   "cracks along cell lines, through cells without holes, or towards the centre of a hole in its cell");
     paths.push_back(std::move(path));
   }
   return paths;

@@ -196,8 +196,9 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
                                  counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
   for (int i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
   if (a.held_at.size() > 0)
-    text += fmt::format("  nothing holds the sheet: it is held at ({:g}, {:g}), and its loads must be in balance\n",
-                        a.held_at[0], a.held_at[1]);
+    text +=
+        fmt::format("  nothing holds the sheet: its loads must be in balance; its fields are held at ({:g}, {:g})\n",
+                    a.held_at[0], a.held_at[1]);
   for (const auto& move : plate.moved_lines) text += fmt::format("  cell line {}\n", move);
   const auto on_springs = std::ranges::count_if(a.contact, [](const auto& rim) { return !rim.disk.is_given(); });
   if (on_springs > 0)

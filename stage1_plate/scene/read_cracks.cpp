@@ -48,9 +48,15 @@ void read_cut(const Value& to, const PlateScene& scene, const Hole& hole, Crack&
   crack.tips = 0;
   if (const int border = index_of(borders, to.text()); border < count_of(borders)) {
     const int axis = border / 2;
-    const auto& lines = std::get<GridGeometry>(scene.geometry).lines(axis);
+    const auto& grid = std::get<GridGeometry>(scene.geometry);
+    const double place = border % 2 == 0 ? grid.lines(axis).front() : grid.lines(axis).back();
+    const double across = hole.center[1 - axis];
+    const bool is_on_border = across == grid.lines(1 - axis).front() || across == grid.lines(1 - axis).back();
+    if (std::abs(place - hole.center[axis]) <= hole.radius || is_on_border)
+      to.fail(fmt::format("\"{}\", to which hole \"{}\" has no ligament", to.text(), hole.id),
+              "an edge beyond a ligament");
     crack.from = crack.to = hole.center;
-    crack.to[axis] = border % 2 == 0 ? lines.front() : lines.back();
+    crack.to[axis] = place;
     crack.from[axis] += std::copysign(hole.radius, crack.to[axis] - hole.center[axis]);
     return;
   }

@@ -72,6 +72,11 @@ std::ptrdiff_t case_of_sign(const PlateSolution& plate, const std::vector<std::s
 }
 
 FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
+  if (plate.held_at.size() > 0)
+    throw InputError(
+        fmt::format("--field: '{}' is a sum of cases of a sheet that nothing holds, each of which is balanced "
+                    "by tractions of its own; allowed: the RESULT.h5 of a joint under loads in balance",
+                    spec));
   const auto names = case_names(plate);
   auto shown = names;  // without the repeated names of tractions that have a case for each side of a hole
   shown.erase(std::unique(shown.end() - plate.n_tractions(), shown.end()), shown.end());
@@ -94,6 +99,20 @@ FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   }
 }
 
+/// The last increment of a case, from 1 on.
+int last_of_case(const formats::JointResult& joint, const FieldRequest& request) {
+  if (joint.case_name == std::vector<std::string>{""})
+    throw InputError(fmt::format("--case: \"{}\"; allowed: no such option: {} is of a joint without \"cases\"",
+                                 request.of_case, request.spec));
+  const int at = index_of(joint.case_name, request.of_case);
+  for (int step = count_of(joint.load_factor); step > 0; --step)
+    if (joint.case_of[step - 1] == at) return step;
+  const bool is_known = at < count_of(joint.case_name);
+  throw InputError(fmt::format("--case: \"{}\" {} in {}; allowed: {}", request.of_case,
+                               is_known ? "has no increment that converged" : "is no case", request.spec,
+                               listed(joint.case_name)));
+}
+
 FieldState joint_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {
   const auto sheet = read_joint_sheet(plate, file, request.spec, request.plate);
   const auto steps = count_of(sheet.joint.load_factor);
@@ -102,16 +121,18 @@ FieldState joint_state(const PlateSolution& plate, const std::string& file, cons
                                  request.spec, steps));
   FieldState state;
   const int governing = sheet.joint.governing != 0 ? sheet.joint.governing : steps;
-  state.increment = request.increment != 0 ? request.increment : governing;
+  const bool governs = request.increment == 0 && request.of_case.empty();
+  state.increment = governs ? governing : request.increment;
+  if (!request.of_case.empty()) state.increment = last_of_case(sheet.joint, request);
   state.joint_plate = sheet.joint.plates[sheet.at].name;
   state.p = sheet.joint.p;
   const auto step = state.increment - 1;
   const std::string& name = sheet.joint.header.name;
   const std::string& its = sheet.joint.case_name[sheet.joint.case_of[step]];
-  state.words = fmt::format(
-      "{}increment {} of {}{}, load factor {:g}{}", name.empty() ? "" : name + ", ", state.increment, steps,
-      its.empty() ? "" : fmt::format(" in all, of case \"{}\"", its), sheet.joint.load_factor[step],
-      request.increment == 0 && sheet.joint.governing != 0 ? fmt::format(" ({})", sheet.joint.governing_reason) : "");
+  state.words =
+      fmt::format("{}increment {} of {}{}, load factor {:g}{}", name.empty() ? "" : name + ", ", state.increment, steps,
+                  its.empty() ? "" : fmt::format(" in all, of case \"{}\"", its), sheet.joint.load_factor[step],
+                  governs && sheet.joint.governing != 0 ? fmt::format(" ({})", sheet.joint.governing_reason) : "");
   state.coefficients = sheet.coefficients.col(step);
   return state;
 }
@@ -124,6 +145,9 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
   const bool of_joint = wanted && names_a_file(request.spec);
   if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 only");
   if (!of_joint && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
+  if (!of_joint && !request.of_case.empty()) throw InputError("--case: goes with --field RESULT.h5 only");
+  if (request.increment != 0 && !request.of_case.empty())
+    throw InputError("--case: given together with --increment; allowed: one of them");
   for (const auto& [option, path] : {std::pair("-o", output), std::pair("--timings", timings)})
     if (wanted) program::check_spare(option, path, request.spec, "the file of --field");
 }

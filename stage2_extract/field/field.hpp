@@ -24,6 +24,7 @@ struct FieldRequest {
   std::string plate = {};
   int increment = 0;
   int p = 0;
+  std::string of_case = {};  ///< the last increment of this case
 };
 
 /// Throws InputError if an option requires another that is missing, or if an output would replace the joint's result.
@@ -39,7 +40,7 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
 /// A sum has cases separated by commas, each with "=COEFFICIENT" or the coefficient 1: "external:P=0.01,disc:1:x". Ids
 /// may contain commas, colons and equals signs; if several names of cases match, the longest is taken. For a RESULT.h5,
 /// the plate is the one named in the request, else the only one with the same names of cases; the increment is that of
-/// the request, else the last.
+/// the request or the last of its case, else the one that governs.
 /// @param file Name of the plate's file, for messages.
 /// Throws InputError if the request fits neither plate nor joint, FileError for a bad RESULT.h5.
 [[nodiscard]] FieldState field_state(const formats::PlateSolution& plate, const std::string& file,

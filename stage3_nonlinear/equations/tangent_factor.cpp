@@ -111,6 +111,7 @@ VectorXd TangentFactor::step(const VectorXd& b, double wanted) const {
 const TangentFactor::NullSpace& TangentFactor::null_space() const {
   if (null_space_) return *null_space_;
   const Index n = schur_.rows();
+  if (n == 0) return null_space_.emplace();
   constexpr double shift = 1e-12;  // makes a singular matrix regular
   constexpr int turns = 2, powers = 6;
   Index first = 8;

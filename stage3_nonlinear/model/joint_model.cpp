@@ -151,7 +151,8 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   const Index index = index_of(plate.holes, hole.name);
   if (index == std::ssize(plate.holes))
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate.file),
-           fmt::format("{}", fmt::join(plate.holes, ", ")));
+           plate.holes.empty() ? "none: the sheet has no hole with a spring"
+                               : fmt::format("{}", fmt::join(plate.holes, ", ")));
   const double mu = fastener.friction[at];
   HoleModel result{plate_at, index * model.n_directions(), mu != 0};
   if (directions_at(plate, result.disc) == "x and y") check_rim_all_around(plate, hole.name);

@@ -129,9 +129,11 @@ void check_balance(const JointModel& joint, const CaseScene& its, const VectorXd
       magnitude += its_load.cwiseAbs();
     }
     const double force = magnitude.head<2>().sum();
-    const double moment = std::max(magnitude[2], force * plate.traction_moment.lpNorm<Eigen::Infinity>());
+    double moment = magnitude[2];
+    for (const auto& piece : plate.border)
+      moment = std::max(moment, force * (piece.from - Eigen::Vector2d(plate.held_at)).norm());
     if (sum.head<2>().norm() <= rounding * force && std::abs(sum[2]) <= rounding * moment) continue;
-    refuse(its.where,
+    refuse(its.where_loads,
            fmt::format(
                "the loads on \"{}\", which has no support, have a resultant: force ({:.6g}, {:.6g}), moment {:.6g} "
                "about ({:.6g}, {:.6g})",

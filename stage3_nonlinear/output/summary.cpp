@@ -278,13 +278,14 @@ std::string summary_title(const JointScene& scene, const JointModel& joint) {
   for (const auto& plate : joint.plates)
     if (const auto error = relative_error(plate))
       text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name, *error);
-    else if (plate.S.size() > 0 && plate.S.isZero(0))
+    else if (joint.n_planes() > 0 && plate.S.isZero(0))
       text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
   for (const auto& plate : joint.plates)
     if (plate.is_free_body())
       text += fmt::format(
-          "{} has no support: its loads are in balance, and it is held at ({:.6g}, {:.6g}) without a force\n",
-          plate.name, plate.held_at[0], plate.held_at[1]);
+          "{} has no support: its loads are in balance, and displacements are those beyond the mean motion of "
+          "its border\n",
+          plate.name);
   return text;
 }
 

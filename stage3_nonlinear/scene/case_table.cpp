@@ -56,6 +56,7 @@ std::vector<CaseScene> read_case_table(const std::string& path, const std::vecto
   std::set<std::string> loaded;
   for (std::ptrdiff_t at = 0; at < std::ssize(headings); ++at) {
     if (at == named) continue;
+    if (headings[at] == "case") refuse(first, "a second column \"case\"", "one");
     const auto& external = loads.emplace_back(load_of(headings[at], first, plates)).external;
     if (!loaded.insert(external.plate + ":" + external.name).second)
       refuse(external.where, "a second column of this external", "one column for each external");
@@ -65,10 +66,10 @@ std::vector<CaseScene> read_case_table(const std::string& path, const std::vecto
   for (const auto& [line, cells] : std::span(rows).subspan(1)) {
     const std::string place = fmt::format("{}:{}", path, line);
     if (cells.size() != headings.size())
-      refuse(place, fmt::format("{} below {} of names", program::counted(cells.size(), "column"), headings.size()),
-             "as many, parted as the names are");
+      refuse(place, fmt::format("{}, and {} of names", program::counted(cells.size(), "cell"), headings.size()),
+             "as many cells as names, parted by the same character; '#' begins a comment unless it is quoted");
     CaseScene& its = cases.emplace_back(CaseScene{cells[named], loads, load_factors});
-    its.where = place;
+    its.where = its.where_loads = place;
     if (its.name.empty() || !names.insert(its.name).second)
       refuse(place, its.name.empty() ? "a case without a name" : fmt::format("\"{}\" stands twice", its.name),
              "each name once");

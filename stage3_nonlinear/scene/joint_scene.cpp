@@ -292,7 +292,8 @@ std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
     CaseScene& its = cases.emplace_back(CaseScene{given ? item.at("name").text() : "",
                                                   read_loads(item.at("loads"), scene, given ? 0 : 1),
                                                   own ? read_increments(*own) : factors});
-    its.where = where(item.at("loads"));
+    its.where = where(item);
+    its.where_loads = where(item.at("loads"));
     read_temperatures(item, scene, its);
     if (!names.insert(its.name).second)
       item.at("name").fail(fmt::format("\"{}\" stands twice", its.name), "each name once");

@@ -75,7 +75,7 @@ struct CaseScene {
   std::map<std::string, double> temperature{};  ///< change of plates since the assembly, degrees; others: 0
   std::optional<double> fastener_temperature{};  ///< none: the mean of a fastener's sheets
   std::optional<std::size_t> after{};  ///< the case whose last state it starts from, to whose loads its own are added
-  std::string where{};                 ///< place of its loads, for messages
+  std::string where{}, where_loads{};  ///< places of the case and of its loads, for messages
 
   /// Externals with a given displacement, "plate:external", and ties, "plate:external to plate:external": what the
   /// condensed system depends on.

@@ -133,6 +133,7 @@ class Collector {
   }
 
   void of_fasteners() {
+    if (joint_.n_planes() == 0) fail("a check of fasteners, of which there is none", "checks of holes");
     for (const auto& id : check_->of)
       if (std::ranges::find(joint_.fasteners, id, &FastenerModel::id) == joint_.fasteners.end())
         fail(fmt::format("fastener \"{}\" does not exist", id), "ids of fasteners");

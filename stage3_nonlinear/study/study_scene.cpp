@@ -78,8 +78,7 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
   look_up(joint, parts, 0, {}, found);
   if (found.empty())
     place.fail(fmt::format("\"{}\" leads to no number of the joint", text),
-               fmt::format("{}; fasteners count from 0 to {}, whatever their ids", allowed,
-                           joint.value("fasteners", json::array()).size() - 1));
+               fmt::format("{}; lists count from 0, whatever the ids; cells of a table of cases do not vary", allowed));
   return found;
 }
 

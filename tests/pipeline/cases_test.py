@@ -180,7 +180,7 @@ def tabled(folder):
 
     for text, message in (("case,upper:P\na,1\na,2\n", 'loads.csv:3: "a" stands twice'), ("case,upper:P\na,x\n", 'loads.csv:2: "x" in column "upper:P"'),
                           ("name,upper:P\na,1\n", 'loads.csv:1: no column "case"'), ("case,upper:P\n", "loads.csv: no case"), ("case,side:P\na,1\n", 'loads.csv:1: column "side:P"'),
-                          ("case,upper:Q\na,1\n", 'column "upper:Q": external "Q" does not exist'), ("case,upper:P\na\n", "loads.csv:2: 1 column below 2 of names"),
+                          ("case,upper:Q\na,1\n", 'column "upper:Q": external "Q" does not exist'), ("case,upper:P\na\n", "loads.csv:2: 1 cell, and 2 of names"),
                           ("case,upper:P moment\na,1\n", 'takes no moment'), ("case,upper:P,upper:P displacement\na,1,1\n", "a second column of this external")):
         (folder / "loads.csv").write_text(text)
         said = run(folder, scene, status=2).stderr

@@ -116,6 +116,10 @@ def refused(folder):
     assert 0 < peaks[1] < peaks[0], peaks  # pushed, the largest tension is that of the place with a third of it
     rows = list(csv.DictReader((folder / "e.csv").open()))
     assert any("two" in row.values() for row in rows), rows
+    field = folder / "s.h5", "--field", folder / "r.h5", "-o", folder / "f.vtu", "--case"
+    assert 'increment 2 of 2 in all, of case "two"' in run("stage2_extract", *field, "two"), "the field of a case"
+    said = run("stage2_extract", *field, "three", status=2)
+    assert '--case: "three" is no case in' in said and "allowed: one, two" in said, said
     done = run_script("report", folder / "r.h5", "-o", folder / "r.html")
     assert done.returncode == 0 and "Load cases" in (folder / "r.html").read_text(), done
 

@@ -130,8 +130,8 @@ class RandomLengths {
   double last_ = least;
 };
 
-std::string crack_from(int hole, double angle, double length) {
-  return fmt::format(R"({{"from": "hole:{}", "angle": {}, "length": {:.17g}}})", hole, angle, length);
+std::string crack_from(int at, double angle, double length) {
+  return fmt::format(R"({{"from": "hole:{}", "angle": {}, "length": {:.17g}}})", at, angle, length);
 }
 
 std::string hole_at(int name, double x, double y) {

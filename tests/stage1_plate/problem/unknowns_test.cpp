@@ -16,12 +16,15 @@ TEST(Unknowns, SupportsAndExternalsTakeAwayTheirs) {
   const auto count = [](const std::string& extra) {
     return test::make_plate(test::grid_scene({0, 1}, {0, 1}, {}, extra)).problem.unknowns;
   };
-  const auto free = count("");  // one element
-  for (int p = 1; p <= 8; ++p) EXPECT_EQ(free.n_free[p], 2 * (p + 1) * (p + 1));
+  const auto free = count("");  // one element, held against the three rigid motions
+  for (int p = 1; p <= 8; ++p) EXPECT_EQ(free.n_free[p], 2 * (p + 1) * (p + 1) - 3);
+  EXPECT_TRUE(free.held_at);
+  constexpr int all = 2 * 9 * 9;
   const auto held = count(R"(, "supports": [{"on": "left", "fix": ["x", "y"]}])");
-  EXPECT_EQ(held.n_free[8], free.n_free[8] - 2 * (2 + 7));
+  EXPECT_EQ(held.n_free[8], all - 2 * (2 + 7));
   const auto rigid = count(R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
-  EXPECT_EQ(rigid.n_free[8], free.n_free[8] - (2 + 7));
+  EXPECT_EQ(rigid.n_free[8], all - (2 + 7));
+  EXPECT_FALSE(held.held_at || rigid.held_at);
   EXPECT_EQ(rigid.n_controlled(), 1);
 }
 

@@ -252,7 +252,7 @@ TEST(JointModel, RefusesMatricesThatNoPlateHas) {
   expect_refusal<FileError>(lap, {}, "b.h5:disc/hole: \"1\" stands twice, expected each name once");
   lap = test::two_fastener_lap();
   lap.b = test::chain(0, 0, 1000, {});
-  expect_refusal<FileError>(lap, {}, "b.h5:disc/hole: is empty, expected at least one disc");
+  expect_refusal<InputError>(lap, {}, "allowed: none: the sheet has no hole with a spring");
 }
 
 TEST(JointModel, RefusesFilesThatAreMissing) {
