@@ -78,7 +78,7 @@ TangentFactor::TangentFactor(const CondensedSystem& system, ContactState state)
     column += n_long;
   }
   lu_ = matrices::Lu(schur_);
-  is_singular_ = !(lu_.rcond() * std::min(1.0, lu_.norm()) > singular_tangent);
+  is_singular_ = n_kept() > 0 && !(lu_.rcond() * std::min(1.0, lu_.norm()) > singular_tangent);
 }
 
 /// Let J = U s V^T, where columns L of U and R of V span the null spaces. The determinant of J + L R^T has the sign of
@@ -111,7 +111,6 @@ VectorXd TangentFactor::step(const VectorXd& b, double wanted) const {
 const TangentFactor::NullSpace& TangentFactor::null_space() const {
   if (null_space_) return *null_space_;
   const Index n = schur_.rows();
-  if (n == 0) return null_space_.emplace();
   constexpr double shift = 1e-12;  // makes a singular matrix regular
   constexpr int turns = 2, powers = 6;
   Index first = 8;
