@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include "common/pfem/element.hpp"
 #include "common/plate/cracks.hpp"
@@ -179,6 +180,28 @@ TEST(CrackMesh, TakesAnyLengthsInARow) {
     if (cracks.empty()) add(0, 90, 0.5);
     const auto plate = stage1::make_mesh(scene(fmt::format(R"("x": [-10, 10], "y": [{}])", lines), holes, cracks));
     expect_open(plate, 20 * pitch * n - n * std::numbers::pi, total);
+  }
+}
+
+/// Along a cell line between two holes' cells, across their sides, and with tips on sides: the sections stay whole.
+TEST(CrackMesh, TipsMayLieOnTheSidesOfCells) {
+  const std::string holes =
+      R"({"id": "h", "center": [2.1, 6.1], "radius": 1}, {"id": "g", "center": [14.1, 9.9], "radius": 1.5})";
+  using Case = std::tuple<const char*, double, double>;  // crack, its length, and where the cell line at 9 is then
+  for (const auto& [crack, length, line] : {Case{R"({"from": "bottom", "at": 9, "length": 3.55})", 3.55, 9},
+                                            {R"({"from": [9, 12], "to": [9, 16.3]})", 4.3, 9},
+                                            {R"({"from": "hole:h", "angle": 0, "length": 5.9})", 5.9, 9},
+                                            {R"({"from": "hole:g", "angle": 180, "length": 5})", 5, 7.6},
+                                            {R"({"from": "bottom", "at": 9, "length": 12})", 12, 9}}) {
+    SCOPED_TRACE(crack);
+    const auto plate = stage1::make_mesh(scene(R"("x": [0, 9, 20, 40], "y": [0, 20])", holes, crack));
+    expect_open(plate, 800 - std::numbers::pi * (1 + 1.5 * 1.5), length);
+    for (const auto& section : plate.sections) {
+      const double across_y = section.hole == 0 ? line : 20 - line;
+      EXPECT_NEAR(rim::section_area(plate.mesh, plate.edges, section), section.side.ends_with('x') ? 20 : across_y,
+                  1e-9)
+          << section.side << " of hole " << section.hole;
+    }
   }
 }
 
