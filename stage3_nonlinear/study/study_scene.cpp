@@ -230,6 +230,9 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
   words.emplace_back("margins");
   if (const auto outputs = root.find("outputs"))
     for (const auto& output : outputs->items()) study.outputs.insert(output.choice(words));
+  const auto fasteners = joint.root->find("fasteners");
+  if (fasteners != joint.root->end() && fasteners->is_array() && fasteners->empty())
+    study.outputs.insert("peaks");  // sheets alone have no forces, which are kept of others
   if (const auto cases = root.find("cases"))
     for (const auto& name : cases->items(1)) {
       if (std::ranges::find(study.cases, name.text()) != study.cases.end())

@@ -126,7 +126,7 @@ def refused(folder):
 
 def study(folder):
     """Samples of a sheet alone are linear in the load, and increments at events are the full load."""
-    (folder / "study.json").write_text(json.dumps({"format": "study", "version": 1, "outputs": ["peaks"], "variables": [
+    (folder / "study.json").write_text(json.dumps({"format": "study", "version": 1, "variables": [
         {"name": "P", "at": "/loads/0/force", "values": [1.0, 2.0, 5.0]}]}))
     held = sheet([-6, 6], [-5, 5], holes=[{"id": "h", "center": [0, 0], "radius": 1}], supports=[{"on": "left", "fix": ["x", "y"]}],
                  external=[traction("P", "right", "x")])
