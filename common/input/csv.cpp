@@ -108,4 +108,14 @@ std::optional<double> csv_number(std::string_view cell) {
   return value;
 }
 
+double csv_value(const std::string& cell, const std::string& place, const std::string& column) {
+  const auto value = csv_number(cell);
+  if (!value || !has_allowed_size(*value))
+    throw InputError(fmt::format(
+        "{}: \"{}\" in column \"{}\"; allowed: a number with a decimal point, 0 or of a size from 1e-100 to "
+        "1e+100",
+        place, cell, column));
+  return *value;
+}
+
 }  // namespace fastjoint::input

@@ -25,4 +25,8 @@ struct CsvRow {
 /// Number that is the whole cell, written with a decimal point; none otherwise. It may be infinite or no number.
 [[nodiscard]] std::optional<double> csv_number(std::string_view cell);
 
+/// Number of a cell. Throws InputError for anything else than a number of an allowed size.
+/// @param place Of the cell, FILE:LINE. @param column Its name.
+[[nodiscard]] double csv_value(const std::string& cell, const std::string& place, const std::string& column);
+
 }  // namespace fastjoint::input

@@ -96,16 +96,20 @@ std::vector<double> merged(const std::optional<NeededNodes>& before, const std::
   return nodes;
 }
 
-/// The nodes that cracks need on several sides, ascending.
+/// The nodes that cracks need on several sides, ascending; of those too close to each other the finer ones.
 std::vector<double> all_of(const std::vector<std::vector<CrackNode>>& of_cracks, int first, int last) {
   std::vector<CrackNode> wanted;
-  double size = 0;
   for (int side = first; side <= last; ++side)
-    for (const CrackNode& node : of_cracks[side]) {
-      wanted.push_back(node);
-      size = std::max(size, std::abs(node.at));
-    }
-  auto nodes = thinned(std::move(wanted), size);
+    wanted.insert(wanted.end(), of_cracks[side].begin(), of_cracks[side].end());
+  std::ranges::stable_sort(wanted, {}, &CrackNode::step);
+  double size = 0;
+  for (const CrackNode& node : wanted) size = std::max(size, std::abs(node.at));
+  std::vector<double> nodes;
+  for (const CrackNode& node : wanted) {
+    const double clear = std::max(sliver * node.step, 1e-9 * size);
+    if (std::ranges::none_of(nodes, [&](double other) { return std::abs(other - node.at) <= clear; }))
+      nodes.push_back(node.at);
+  }
   std::ranges::sort(nodes);
   return nodes;
 }
@@ -178,17 +182,6 @@ SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid, const s
     for (int i = 0; i < n_strips; ++i) nodes.on[axis].push_back(strip_nodes(strips[i], of_cracks[axis][i]));
   }
   return nodes;
-}
-
-std::vector<double> thinned(std::vector<CrackNode> wanted, double size) {
-  std::ranges::stable_sort(wanted, {}, &CrackNode::step);
-  std::vector<double> kept;
-  for (const CrackNode& node : wanted) {
-    const double clear = std::max(0.3 * node.step, 1e-9 * size);
-    if (std::ranges::none_of(kept, [&](double other) { return std::abs(other - node.at) <= clear; }))
-      kept.push_back(node.at);
-  }
-  return kept;
 }
 
 }  // namespace fastjoint::stage1

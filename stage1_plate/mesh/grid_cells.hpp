@@ -36,6 +36,9 @@ struct HoleCell : Cell {
 template <typename Value>
 using OfSides = std::array<std::vector<std::vector<Value>>, 2>;
 
+/// Lines of a mesh at tips are left out that are nearer to another than this share of the step to the line before.
+inline constexpr double sliver = 0.3;
+
 /// A node that cracks need on a side of a cell.
 struct CrackNode {
   double at;    ///< coordinate along the side, x on bottom and top, else y
@@ -60,9 +63,5 @@ struct SideNodes {
 [[nodiscard]] SideNodes place_nodes(const PlateScene& scene, const GridGeometry& grid,
                                     const std::vector<HoleCell>& holes,
                                     const OfSides<std::vector<CrackNode>>& of_cracks);
-
-/// Places of mesh lines, finest first, without those that are closer to one before than 0.3 of their own step.
-/// @param wanted Those with the step 0 stay, unless they are one place with another such to 1e-9 of `size`.
-[[nodiscard]] std::vector<double> thinned(std::vector<CrackNode> wanted, double size);
 
 }  // namespace fastjoint::stage1

@@ -15,8 +15,6 @@ inline constexpr double same = 1e-9;
 
 /// Ratio of the sizes of neighbouring elements away from a tip.
 inline constexpr double growth = 3.5;
-/// Lines are left out that are nearer to another than this share of the step to the line before.
-inline constexpr double sliver = 0.3;
 
 /// A tip of a crack in a grid.
 struct TipPlace {
@@ -38,8 +36,8 @@ struct MovedGrid {
 /// corner of a hole's cell lies on the ray of its crack, since slivers between the two would spoil the stress intensity
 /// factors.
 ///
-/// Where a line cannot move (it is the border, the thickness or the material changes there, a hole or another tip is in
-/// its way), the elements around the tip become smaller instead. Throws InputError if they would become too small.
+/// The elements around the tip become smaller instead where a line cannot move: it is the border, the thickness or the
+/// material changes there, a hole or another tip is in its way. Throws InputError if they would become too small.
 [[nodiscard]] MovedGrid lines_through_tips(const PlateScene& scene, const GridGeometry& grid,
                                            std::vector<std::vector<TipPlace>>& tips);
 

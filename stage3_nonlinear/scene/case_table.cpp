@@ -33,15 +33,6 @@ LoadScene load_of(const std::string& heading, const std::string& place, const st
   return load;
 }
 
-double number_in(const std::string& cell, const std::string& place, const std::string& heading) {
-  if (cell.empty()) return 0;
-  const auto value = input::csv_number(cell);
-  if (!value || !input::has_allowed_size(*value))
-    refuse(place, fmt::format("\"{}\" in column \"{}\"", cell, heading),
-           "a number with a decimal point, 0 or of a size from 1e-100 to 1e+100, or nothing for 0");
-  return *value;
-}
-
 }  // namespace
 
 std::vector<CaseScene> read_case_table(const std::string& path, const std::vector<PlateScene>& plates,
@@ -74,7 +65,8 @@ std::vector<CaseScene> read_case_table(const std::string& path, const std::vecto
       refuse(place, its.name.empty() ? "a case without a name" : fmt::format("\"{}\" stands twice", its.name),
              "each name once");
     for (std::ptrdiff_t at = 0, load = 0; at < std::ssize(headings); ++at)
-      if (at != named) its.loads[load++].value = number_in(cells[at], place, headings[at]);
+      if (at != named)
+        its.loads[load++].value = cells[at].empty() ? 0 : input::csv_value(cells[at], place, headings[at]);
   }
   return cases;
 }

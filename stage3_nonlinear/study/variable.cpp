@@ -160,13 +160,7 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
           fmt::format("{}:{}: {} below {} of names; allowed: as many, parted as the names are, numbers with a "
                       "decimal point",
                       path, line, program::counted(cells.size(), "column"), n_columns));
-    const auto value = input::csv_number(cells[at]);
-    if (!value || !input::has_allowed_size(*value))
-      throw InputError(
-          fmt::format("{}:{}: \"{}\" in column \"{}\"; allowed: a number with a decimal point, 0 or of a size "
-                      "from 1e-100 to 1e+100",
-                      path, line, cells[at], column));
-    values.push_back(*value);
+    values.push_back(input::csv_value(cells[at], fmt::format("{}:{}", path, line), column));
   }
   return values;
 }
